@@ -1,0 +1,664 @@
+"""Lockstep: every view starts each call from the same memory and inputs, and the maps are compared.
+
+What is measured is said; what differs is shown with the first step, entry and signal, and both values.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..symbolic.block import Block, Scenario
+from ..symbolic.program import Entry
+from ..symbolic.signals import Kind, Signal, Status
+from .layout import fill, flatten
+from .views import Answer, InterpretView, NativeView, Record, ReferenceView, View
+
+DOUBLE_BOUND = 1e-9
+"""Largest accepted difference between views in double precision, in sigma (or relative)."""
+
+SWITCH_MARGIN = {"double": 1e-9, "float": 1e-3}
+"""Relative distance from a switch below which rounding may take either branch."""
+
+LARGEST_SHARE_AT_SWITCHES = 0.05
+ROUNDING_GROWTH = 100.0
+"""A difference up to this many times what one unit in the last place of the memory causes is rounding's own."""
+
+DERIVATIVE_BOUND = 1e-9
+DIFFERENCE_BOUND = 1e-4
+TRACES = ("nominal", "randomised", "adversarial")
+
+
+@dataclass(frozen=True)
+class Mismatch:
+    """The first place where two views differ."""
+
+    trace: str
+    step: int
+    entry: str
+    signal: str
+    left: str
+    left_value: str
+    right: str
+    right_value: str
+    difference: float
+
+    def __str__(self) -> str:
+        return (
+            f"{self.trace} trace, step {self.step}, entry {self.entry}, {self.signal}: {self.left} gives {self.left_value}, "
+            f"{self.right} gives {self.right_value} (difference {self.difference:.3g})"
+        )
+
+
+@dataclass
+class CheckResult:
+    """One named check: what was compared, how far apart it was, whether that is accepted."""
+
+    name: str
+    passed: bool
+    worst: float = 0.0
+    limit: float = 0.0
+    calls: int = 0
+    at_switches: int = 0
+    ill_conditioned: int = 0
+    mismatch: Mismatch | None = None
+    note: str = ""
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return it for JSON."""
+        return {
+            "name": self.name,
+            "passed": self.passed,
+            "worst": float(f"{self.worst:.3g}") if math.isfinite(self.worst) else str(self.worst),
+            "limit": self.limit,
+            "calls": self.calls,
+            "at_switches": self.at_switches,
+            "ill_conditioned": self.ill_conditioned,
+            "mismatch": None if self.mismatch is None else str(self.mismatch),
+            "note": self.note,
+        }
+
+
+@dataclass
+class CrossCheck:
+    """All checks of a block."""
+
+    results: list[CheckResult]
+    statuses: dict[str, int] = field(default_factory=dict)
+    calls: list[Probe] = field(default_factory=list)
+
+    @property
+    def passed(self) -> bool:
+        """Whether every check passed."""
+        return all(result.passed for result in self.results)
+
+    @property
+    def failures(self) -> list[CheckResult]:
+        """The checks that did not pass."""
+        return [result for result in self.results if not result.passed]
+
+
+@dataclass
+class Probe:
+    """One call of a lockstep: where it starts, and what the native view answered."""
+
+    trace: str
+    step: int
+    entry: str
+    memory: Record
+    inputs: Record
+    params: Record
+    answer: Answer | None = None
+
+
+@dataclass
+class Views:
+    """The views of one lockstep; tests replace one to plant a fault."""
+
+    interpret: View
+    native: View
+    reference: View | None
+    reference_same_precision: View | None
+
+
+def make_views(block: Block, precision: str, native: View | None = None) -> Views:
+    """Return every view there is."""
+    has_oracle = block.oracle is not None
+    return Views(
+        InterpretView(block),
+        native or NativeView(block, precision),
+        ReferenceView(block) if has_oracle else None,
+        ReferenceView(block, precision) if has_oracle else None,
+    )
+
+
+def cross_check(
+    block: Block,
+    precision: str = "double",
+    *,
+    views: Views | None = None,
+    steps: int = 100,
+    seed: int = 0,
+    progress: Callable[[int, int], None] | None = None,
+) -> CrossCheck:
+    """Run all views in lockstep on a nominal, a randomised and an adversarial trace.
+
+    Parameters
+    ----------
+    block : Block
+        What to check.
+    precision : {"double", "float"}
+        Of the generated C. Float is also compared with double, from the same memory, within ``block.float_bound``.
+    views : Views, optional
+        Views to use instead of the standard ones.
+    steps : int
+        Length of the nominal trace; the others follow from it.
+    seed : int
+        Of the random generator.
+    progress : callable, optional
+        Called with (calls done, calls in all).
+
+    Returns
+    -------
+    CrossCheck
+        Named results; ``passed`` says whether all are good.
+    """
+    used = views or make_views(block, precision)
+    lock = _Lockstep(block, precision, used)
+    probes = make_probes(block, precision, used, steps, seed)
+    for done, probe in enumerate(probes, start=1):
+        lock.compare(probe)
+        if progress is not None:
+            progress(done, len(probes))
+    results = [*_derivative_results(block, probes), *lock.results()]
+    results.append(_accepted(probes))
+    counts: dict[str, int] = {}
+    for probe in probes:
+        if probe.answer is not None:
+            counts[probe.answer.status.name] = counts.get(probe.answer.status.name, 0) + 1
+    return CrossCheck(results, counts, probes)
+
+
+def _accepted(probes: list[Probe]) -> CheckResult:
+    """A trace on which every call is refused compares nothing."""
+    nominal = [probe for probe in probes if probe.trace == "nominal" and probe.answer is not None]
+    good = sum(1 for probe in nominal if probe.answer is not None and probe.answer.status >= 0)
+    note = "" if good >= 0.5 * len(nominal) else f"only {good} of {len(nominal)} nominal calls were accepted; widen the ranges"
+    return CheckResult("nominal calls are accepted", good >= 0.1 * len(nominal), calls=len(nominal), note=note)
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# What is called
+
+
+class FrozenStream:
+    """Random numbers that are the same under any version of NumPy (its legacy stream, which is frozen)."""
+
+    def __init__(self, seed: int):
+        self._state = np.random.RandomState(seed)
+
+    def normal(self, *args: Any, **kwargs: Any) -> Any:
+        """Draw from a normal distribution."""
+        return self._state.normal(*args, **kwargs)
+
+    def uniform(self, *args: Any, **kwargs: Any) -> Any:
+        """Draw from a uniform distribution."""
+        return self._state.uniform(*args, **kwargs)
+
+    def integers(self, low: int, high: int | None = None, size: Any = None) -> Any:
+        """Draw integers below `high`."""
+        return self._state.randint(low, high, size=size)
+
+
+def make_probes(block: Block, precision: str, views: Views, steps: int, seed: int) -> list[Probe]:
+    """Return the calls of the three traces, the same for the same seed."""
+    scenario = block.scenario or default_scenario(block)
+    native = views.native
+    guide = views.reference or views.interpret
+    rng: Any = FrozenStream(seed)
+    params = native.params()
+    nominal = list(_nominal(block, scenario, native, guide, params, steps, rng))
+    randomised = []
+    plausible = [probe for probe in nominal if probe.entry != "init"]
+    for step in range(steps // 2):
+        source = plausible[int(rng.integers(len(plausible)))]
+        memory = fill(native.memory(), scenario.memory(rng))
+        randomised.append(Probe("randomised", step, source.entry, memory, source.inputs, params))
+    adversarial = list(_adversarial(block, scenario, native, plausible, params, rng))
+    return [*nominal, *randomised, *adversarial]
+
+
+def _nominal(
+    block: Block, scenario: Scenario, native: View, guide: View, params: Record, steps: int, rng: np.random.Generator
+) -> Iterator[Probe]:
+    memory = native.memory()
+    guide_params = fill(guide.params(), flatten(params))
+    for step, (entry, values) in enumerate(scenario.calls(rng, steps)):
+        inputs = native.inputs(entry, values)
+        yield Probe("nominal", step, entry, memory, inputs, params)
+        answer = guide.call(
+            entry, fill(guide.memory(), flatten(memory)), fill(guide.inputs(entry, {}), flatten(inputs)), guide_params
+        )
+        if answer.status >= 0:
+            memory = fill(native.memory(), flatten(answer.memory))
+
+
+def _adversarial(
+    block: Block,
+    scenario: Scenario,
+    native: View,
+    plausible: list[Probe],
+    params: Record,
+    rng: np.random.Generator,
+) -> Iterator[Probe]:
+    """Yield calls with one thing made as bad as it can be."""
+    step = 0
+
+    def probe(entry: str, memory: Record, inputs: Record, used: Record) -> Probe:
+        nonlocal step
+        step += 1
+        return Probe("adversarial", step - 1, entry, memory, inputs, used)
+
+    for name, entry in block.entries.items():
+        sources = [item for item in plausible if item.entry == name] or [
+            Probe("adversarial", 0, name, fill(native.memory(), scenario.memory(rng)), _middle(native, entry), params)
+        ]
+        for signal in (item for item in entry.inputs if item.kind is Kind.REAL):
+            # the entry that does everything meets every bad value, the others the worst of them
+            values = _bad_values(signal, native.precision.dtype)
+            for value in values if name == "step" else values[:8:2]:
+                source = sources[int(rng.integers(len(sources)))]
+                yield probe(name, source.memory, _with_element(source.inputs, signal, value, rng), params)
+        if entry.checks_params:
+            for signal in (item for item in block.param_signals_flat() if item.kind is Kind.REAL):
+                for value in _bad_values(signal, native.precision.dtype)[0:6:5]:  # NaN, and just outside
+                    yield probe(name, native.memory(), native.inputs(name, {}), _with_element(params, signal, value, rng))
+            continue
+        for signal in block.memory_signals_flat():
+            for value in _memory_extremes(signal):
+                source = sources[int(rng.integers(len(sources)))]
+                yield probe(name, _with_element(source.memory, signal, value, rng), source.inputs, params)
+        for signal in (item for item in block.param_signals_flat() if item.kind is Kind.REAL and "variance" in item.name):
+            # no noise at all, and noise that makes the innovation variance negative: parameters that init would refuse
+            for value in (0.0, -1.0e3):
+                source = sources[int(rng.integers(len(sources)))]
+                whole = fill(params.copy(), {signal.name: np.full(signal.size, value)})
+                yield probe(name, source.memory, source.inputs, whole)
+        for factor in (1.0e-12, 1.0e6, 1.0e12):
+            source = sources[int(rng.integers(len(sources)))]
+            yield probe(name, _scaled_arrays(source.memory, block, factor), source.inputs, params)
+    for count in (1.0, 2.0):
+        yield from _recoveries(block, native, plausible, params, count, probe)
+    yield from _long_gaps(block, scenario, native, plausible, params, probe)
+
+
+def _recoveries(
+    block: Block, native: View, plausible: list[Probe], params: Record, limit: float, probe: Callable[..., Probe]
+) -> Iterator[Probe]:
+    """Yield steps with counters at their limit."""
+    counters = {signal.name: 3 for signal in block.memory_signals_flat() if signal.kind is Kind.COUNT}
+    limits = {signal.name: limit for signal in block.param_signals_flat() if signal.kind is Kind.COUNT}
+    if not counters or not limits:
+        return
+    used = fill(params.copy(), limits)
+    for source in [item for item in plausible if item.entry == "step"][:6]:
+        yield probe("step", fill(source.memory.copy(), counters), source.inputs, used)
+
+
+def _long_gaps(
+    block: Block, scenario: Scenario, native: View, plausible: list[Probe], params: Record, probe: Callable[..., Probe]
+) -> Iterator[Probe]:
+    """Yield calls in a row at both ends of the time step's range."""
+    if not scenario.gaps:
+        return
+    for source in plausible:
+        if source.entry != "predict":
+            continue
+        signal = next(item for item in block.entries["predict"].inputs if item.name == scenario.gaps)
+        for value in (signal.high[0], signal.low[0]):
+            inputs = fill(source.inputs.copy(), {scenario.gaps: value})
+            memory = source.memory
+            for _ in range(8):
+                yield probe("predict", memory, inputs, params)
+                memory = native.call("predict", memory, inputs, params).memory
+        return
+
+
+def _bad_values(signal: Signal, real: Any) -> list[float]:
+    """Return values at and beyond what a signal may be."""
+    low, high = signal.low[0], signal.high[0]
+    outside = float(np.nextafter(real(high), real(np.inf)))
+    below = float(np.nextafter(real(low), real(-np.inf)))
+    tiny = float(np.finfo(real).smallest_subnormal)
+    return [
+        math.nan, math.inf, -math.inf, high, low, outside, below, 10 * high + 1, 0.0, -0.0, tiny, -tiny, math.pi, -math.pi,
+    ]  # fmt: skip
+
+
+def _memory_extremes(signal: Signal) -> list[float]:
+    """Return values at the ends of what a memory field may be."""
+    if signal.kind is Kind.COUNT:
+        return [0, 2**32 - 1]
+    if signal.kind is not Kind.REAL or signal.uniform_range is None:
+        return []
+    return [signal.low[0], signal.high[0], 0.0] + ([math.pi, -math.pi] if signal.angle else [])
+
+
+def _with_element(record: Record, signal: Signal, value: float, rng: np.random.Generator) -> Record:
+    """Return a copy of a record with one element of a field replaced."""
+    array = flatten(record)[signal.name].copy()
+    with np.errstate(all="ignore"):
+        array[int(rng.integers(signal.size))] = value
+    return fill(record.copy(), {signal.name: array})
+
+
+def _scaled_arrays(record: Record, block: Block, factor: float) -> Record:
+    """Return a copy with every field of mixed range (a covariance) scaled: near its floor or its ceiling."""
+    fields = flatten(record)
+    names = [s.name for s in block.memory_signals_flat() if s.kind is Kind.REAL and s.uniform_range is None]
+    return fill(record.copy(), {name: fields[name] * fields[name].dtype.type(factor) for name in names})
+
+
+def _middle(native: View, entry: Entry) -> Record:
+    values = {
+        s.name: np.clip(np.zeros(s.size), s.low, s.high) for s in entry.inputs if s.kind is Kind.REAL
+    }
+    flags = {s.name: True for s in entry.inputs if s.kind is Kind.FLAG}
+    return native.inputs(entry.name, {**values, **flags})
+
+
+def default_scenario(block: Block) -> Scenario:
+    """Return a scenario that draws everything from its range: for blocks that bring none."""
+
+    def draw(rng: np.random.Generator, signal: Signal) -> Any:
+        if signal.kind is Kind.FLAG:
+            return bool(rng.integers(2))
+        if signal.kind is Kind.COUNT:
+            return int(rng.integers(5))
+        return rng.uniform(signal.low, signal.high)
+
+    def calls(rng: np.random.Generator, steps: int) -> Iterator[tuple[str, dict[str, Any]]]:
+        yield "init", {}
+        names = [name for name in block.entries if name != "init"]
+        for k in range(steps):
+            entry = block.entries[names[k % len(names)]]
+            yield entry.name, {signal.name: draw(rng, signal) for signal in entry.inputs}
+
+    def memory(rng: np.random.Generator) -> dict[str, Any]:
+        return {signal.name: draw(rng, signal) for signal in block.memory_signals_flat()}
+
+    return Scenario(calls, memory)
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# How it is compared
+
+
+class _Lockstep:
+    """Runs probes in all views and keeps the worst difference of each pair."""
+
+    def __init__(self, block: Block, precision: str, views: Views):
+        self.block, self.precision, self.views = block, precision, views
+        self.single = precision == "float"
+        self.pairs: dict[str, CheckResult] = {}
+        self.angles = {signal.name for signal in block.memory_signals_flat() if signal.angle}
+        for entry in block.entries.values():
+            self.angles |= {name for name, signal in _leaves(entry.outputs) if signal.angle}
+        self.largest: dict[tuple[str, str, str], Any] = {}
+        self.scales = None if block.scenario is None else block.scenario.scales
+
+    def compare(self, probe: Probe) -> None:
+        """Run one call everywhere."""
+        native = self.views.native.call(probe.entry, probe.memory, probe.inputs, probe.params)
+        probe.answer = native
+        self._untouched(probe, native)
+        interpret = self._converted(self.views.interpret, probe)
+        margin = interpret.margin
+        reference = None if self.views.reference is None else self._converted(self.views.reference, probe)
+        if reference is not None:
+            self._pair("interpret = reference", probe, interpret, reference, margin, 1e-9)
+        if not self.single:
+            if reference is not None:
+                self._pair("native = reference", probe, native, reference, margin, 1e-9)
+            self._pair("native = interpret", probe, native, interpret, margin, 1e-9)
+            return
+        other = self.views.reference_same_precision
+        if other is not None:
+            same = self._converted(other, probe)
+            self._statuses("float statuses = reference in float", probe, native, same, margin, other)
+        best = interpret if reference is None else reference
+        self._pair("float = double", probe, native, best, margin, self.block.float_bound, statuses=False)
+
+    def _converted(self, view: View, probe: Probe) -> Answer:
+        """Call a view of another precision with the same numbers."""
+        return view.call(
+            probe.entry,
+            fill(view.memory(), flatten(probe.memory)),
+            fill(view.inputs(probe.entry, {}), flatten(probe.inputs)),
+            fill(view.params(), flatten(probe.params)),
+        )
+
+    def _result(self, name: str, limit: float) -> CheckResult:
+        return self.pairs.setdefault(name, CheckResult(name, True, limit=limit))
+
+    def _fail(self, result: CheckResult, mismatch: Mismatch) -> None:
+        result.passed = False
+        if result.mismatch is None:
+            result.mismatch = mismatch
+
+    def _untouched(self, probe: Probe, native: Answer) -> None:
+        """A refused call leaves the memory as it was, bit for bit, and the outputs too."""
+        result = self._result("a refused call changes nothing", 0.0)
+        result.calls += 1
+        if native.status >= 0:
+            return
+        for what, before, after in (
+            ("memory", flatten(probe.memory), flatten(native.memory)),
+            ("outputs", flatten(self.views.native.outputs(probe.entry)), flatten(native.outputs)),
+        ):
+            for name, value in before.items():
+                if value.tobytes() != after[name].tobytes():
+                    self._fail(
+                        result,
+                        Mismatch(
+                            probe.trace, probe.step, probe.entry, f"{what} {name}", "before", str(value), "after",
+                            str(after[name]), math.inf,
+                        ),
+                    )  # fmt: skip
+
+    def _statuses(
+        self, name: str, probe: Probe, left: Answer, right: Answer, margin: float, witness: View | None = None
+    ) -> bool:
+        """Compare statuses; return whether the numbers may be compared too."""
+        result = self._result(name, 0.0)
+        result.calls += 1
+        if left.status == right.status:
+            return left.status >= 0
+        if margin < SWITCH_MARGIN[self.precision] or self._either_status(probe, (left.status, right.status), witness):
+            result.at_switches += 1
+            return False
+        views = name.replace("statuses ", "").split(" = ")
+        self._fail(
+            result,
+            Mismatch(
+                probe.trace, probe.step, probe.entry, "status", views[0], left.status.name, views[-1], right.status.name,
+                abs(float(left.status) - float(right.status)),
+            ),
+        )  # fmt: skip
+        return False
+
+    def _pair(
+        self, name: str, probe: Probe, left: Answer, right: Answer, margin: float, limit: float, *, statuses: bool = True
+    ) -> None:
+        result = self._result(name, limit)
+        if statuses:
+            if not self._statuses(name, probe, left, right, margin):
+                return
+        else:
+            if left.status != right.status or left.status < 0:
+                return  # statuses are compared within one precision
+            result.calls += 1
+        after = flatten(right.memory)
+        scales = self._scales(probe, after)
+        for where, first, second in (
+            ("memory", flatten(left.memory), after),
+            ("outputs", flatten(left.outputs), flatten(right.outputs)),
+        ):
+            for field_name, value in second.items():
+                self._field(result, probe, name, where, field_name, first[field_name], value, scales, limit)
+
+    def _scales(self, probe: Probe, after: Mapping[str, Any]) -> dict[str, Any]:
+        """Return sigma of each field where it is known: the larger of before and after the call."""
+        if self.scales is None:
+            return {}
+        answer = dict(self.scales(after))
+        if probe.entry != "init":
+            before = self.scales(flatten(probe.memory))
+            answer = {name: np.maximum(value, before[name]) for name, value in answer.items()}
+        return answer
+
+    def _field(
+        self,
+        result: CheckResult,
+        probe: Probe,
+        check: str,
+        where: str,
+        name: str,
+        first: Any,
+        second: Any,
+        scales: Mapping[str, Any],
+        limit: float,
+    ) -> None:
+        if second.dtype.kind in "biu":
+            difference = np.where(first == second, 0.0, np.inf)
+        else:
+            a, b = first.astype(float), second.astype(float)
+            with np.errstate(all="ignore"):
+                gap = np.abs(a - b)
+                if name in self.angles:
+                    gap = np.abs(gap - 2 * np.pi * np.round(gap / (2 * np.pi)))
+                difference = gap / self._size(probe, where, name, b, scales)
+            same = (a == b) | (np.isnan(a) & np.isnan(b))
+            difference = np.where(same, 0.0, np.where(np.isnan(difference), np.inf, difference))
+        worst = int(np.argmax(difference))
+        result.worst = max(result.worst, float(difference[worst]))
+        if difference[worst] > limit and self._is_rounding(probe, where, name, float(difference[worst]), scales):
+            result.ill_conditioned += 1
+        elif difference[worst] > limit:
+            left, right = check.split(" = ")
+            element = f"[{worst}]" if len(difference) > 1 else ""
+            self._fail(
+                result,
+                Mismatch(
+                    probe.trace, probe.step, probe.entry, f"{where} {name}{element}", left, repr(first[worst].item()), right,
+                    repr(second[worst].item()), float(difference[worst]),
+                ),
+            )  # fmt: skip
+
+    def _nearby(self, probe: Probe, view: View) -> Iterator[Answer]:
+        """Yield answers from memories that differ in the last place of the checked precision."""
+        rng = np.random.default_rng(probe.step)
+        unit = float(np.finfo(self.views.native.precision.dtype).eps)
+        for _ in range(6):
+            fields = {}
+            for name, value in flatten(probe.memory).items():
+                if value.dtype.kind == "f":
+                    fields[name] = value.astype(float) * (1 + unit * rng.choice((-1.0, 1.0), size=value.shape))
+            memory = fill(fill(view.memory(), flatten(probe.memory)), fields)
+            inputs = fill(view.inputs(probe.entry, {}), flatten(probe.inputs))
+            yield view.call(probe.entry, memory, inputs, fill(view.params(), flatten(probe.params)))
+
+    def _either_status(self, probe: Probe, statuses: tuple[Status, Status], witness: View | None) -> bool:
+        """Whether a change in the last place of the memory turns one of two statuses into the other."""
+        view = witness or self.views.reference or self.views.interpret
+        return len({answer.status for answer in self._nearby(probe, view)} & set(statuses)) == 2
+
+    def _is_rounding(self, probe: Probe, where: str, name: str, difference: float, scales: Mapping[str, Any]) -> bool:
+        """Whether a difference is no larger than what rounding of the memory itself causes (an ill-conditioned map)."""
+        view = self.views.reference or self.views.interpret
+        base = self._converted(view, probe)
+        if base.status < 0:
+            return False
+        center = flatten(base.memory if where == "memory" else base.outputs)[name].astype(float)
+        size = self._size(probe, where, name, center, scales)
+        largest = 0.0
+        for answer in self._nearby(probe, view):
+            if answer.status < 0:
+                return True
+            value = flatten(answer.memory if where == "memory" else answer.outputs)[name].astype(float)
+            with np.errstate(all="ignore"):
+                gap = np.abs(value - center) / size
+            largest = max(largest, float(np.max(np.where(np.isfinite(gap), gap, 0.0))))
+        return difference <= ROUNDING_GROWTH * largest
+
+    def _size(self, probe: Probe, where: str, name: str, value: Any, scales: Mapping[str, Any]) -> Any:
+        """Return what a difference is relative to: sigma, else the largest magnitude so far on the trace."""
+        if where == "memory" and name in scales:
+            return np.maximum(scales[name], 1e-300)
+        key = (probe.trace, probe.entry, name)
+        finite = np.where(np.isfinite(value), np.abs(value), 0.0)
+        self.largest[key] = max(self.largest.get(key, 1e-300), float(np.max(finite, initial=0.0)))
+        return max(self.largest[key], float(np.finfo(np.float32).tiny) if self.single else 1e-300)
+
+    def results(self) -> list[CheckResult]:
+        """Return all results; too many calls at switches is a failure too."""
+        for result in self.pairs.values():
+            if result.calls and result.at_switches > LARGEST_SHARE_AT_SWITCHES * result.calls:
+                result.passed = False
+                result.note = f"{result.at_switches} of {result.calls} calls differ in status near a switch, more than 5 %"
+            if result.calls and result.ill_conditioned > LARGEST_SHARE_AT_SWITCHES * result.calls:
+                result.passed = False
+                result.note = f"{result.ill_conditioned} of {result.calls} values are ill-conditioned, more than 5 %"
+        names = list(self.pairs.values())
+        if self.views.reference is None:
+            names.append(CheckResult("independent reference", True, note="no independent reference: the block brings no oracle"))
+        return names
+
+
+def _leaves(signals: tuple[Signal, ...], prefix: str = "") -> Iterator[tuple[str, Signal]]:
+    for signal in signals:
+        if signal.kind is Kind.GROUP:
+            yield from _leaves(signal.members, f"{prefix}{signal.name}.")
+        else:
+            yield prefix + signal.name, signal
+
+
+def _derivative_results(block: Block, probes: list[Probe]) -> list[CheckResult]:
+    """Compare the block's Jacobians with complex step and central differences of f and h, along the nominal trace."""
+    results = []
+    for check in block.derivative_checks:
+        entry = "predict" if check.name == "F" else f"update_{check.name.removeprefix('H_')}"
+        chosen = [item for item in probes if item.trace in ("nominal", "randomised") and item.entry == entry][:25]
+        exact = CheckResult(f"{check.name} = complex step", True, limit=DERIVATIVE_BOUND)
+        rough = CheckResult(f"{check.name} = central differences", True, limit=DIFFERENCE_BOUND)
+        if check.kinks:
+            exact.note = rough.note = f"kinks declared: {', '.join(check.kinks)}"
+        for probe in chosen:
+            values = {**flatten(probe.params), **flatten(probe.inputs), **flatten(probe.memory)}
+            values = {name: np.asarray(value, dtype=float) for name, value in values.items()}
+            ours = check.ours(values)
+            for result, witness in ((exact, check.complex_step), (rough, check.differences)):
+                expected = witness(values)
+                size = 1.0 + np.abs(expected)
+                gap = np.abs(ours - expected) / size
+                result.calls += 1
+                worst = np.unravel_index(int(np.argmax(gap)), gap.shape)
+                result.worst = max(result.worst, float(gap[worst]))
+                if not gap[worst] <= result.limit:
+                    result.passed = False
+                    result.mismatch = result.mismatch or Mismatch(
+                        probe.trace, probe.step, entry, f"{check.name}[{worst[0]}, {worst[1]}]", "CasADi",
+                        repr(float(ours[worst])), result.name.split(" = ")[1], repr(float(expected[worst])),
+                        float(gap[worst]),
+                    )  # fmt: skip
+        results += [exact, rough]
+    return results
+
+
+def statuses_seen(check: CrossCheck) -> dict[Status, int]:
+    """Return how often each status was returned by the generated C."""
+    return {Status[name]: count for name, count in check.statuses.items()}

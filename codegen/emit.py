@@ -1,0 +1,331 @@
+"""From a Block to the text of its C library: header and source."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+import jinja2
+
+from ..symbolic.block import Block
+from ..symbolic.names import why_not_a_name
+from ..symbolic.program import Entry, HoldVariances, walk
+from ..symbolic.signals import STATUS_TEXT, Kind, Signal, Status
+from .layout import default_text, struct_lines
+from .style import WIDTH, Precision, comment_lines, wrap_line
+from .writer import CoreWriter, Style, core_name, has_outputs, is_sequenced, needs_params, style_for, wrap_signature
+
+
+def generator_version() -> str:
+    """Return the version of plantc, for headers and manifests."""
+    try:
+        return version("plantc")
+    except PackageNotFoundError:  # run from a checkout that was never installed
+        return "0+unknown"
+
+
+@lru_cache
+def templates() -> jinja2.Environment:
+    """Return the environment of the artefact templates."""
+    return jinja2.Environment(
+        loader=jinja2.PackageLoader("plantc.codegen", "templates"),
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        undefined=jinja2.StrictUndefined,
+        autoescape=False,
+    )
+
+
+@dataclass(frozen=True)
+class CText:
+    """The emitted library.
+
+    Attributes
+    ----------
+    name : str
+        Block name: prefix of everything.
+    precision : Precision
+        Type of real numbers.
+    header, source : str
+        The two files.
+    operations : dict
+        Entry -> count of operations by kind.
+    """
+
+    name: str
+    precision: Precision
+    header: str
+    source: str
+    operations: dict[str, dict[str, int]]
+
+
+def emit(block: Block, precision: str | Precision = "double", style: Style | None = None) -> CText:
+    """Return the C99 text of a block: the same bytes for the same model, anywhere.
+
+    Parameters
+    ----------
+    block : Block
+        What to write.
+    precision : {"double", "float"}
+        Type of every real number.
+    style : Style, optional
+        The emitter's choices; by default those for the precision.
+    """
+    kind = precision if isinstance(precision, Precision) else Precision(precision)
+    return _Emitter(block, kind, style or style_for(kind)).text()
+
+
+class _Emitter:
+    def __init__(self, block: Block, precision: Precision, style: Style):
+        self.block, self.precision, self.style = block, precision, style
+        self.name = block.name
+        self.operations: dict[str, dict[str, int]] = {}
+        self.used: set[str] = set()
+
+    def text(self) -> CText:
+        """Write both files."""
+        cores = self._cores(self.block, self.name)
+        publics = [line for entry in self.block.entries.values() for line in ["", *self._public(entry)]]
+        context = {
+            "name": self.name,
+            "upper": self.name.upper(),
+            "version": generator_version(),
+            "hash": self.block.model_hash(),
+            "real": self.precision.name,
+            "statuses": [(status.name, int(status), STATUS_TEXT[status]) for status in _header_order()],
+            "higher": "higher" in self.used,
+            "math": any(item not in ("higher", "hold_variances") for item in self.used),
+        }
+        header = templates().get_template("header.h.j2").render(
+            **context,
+            title=self._title(),
+            equations=self._equation_lines(),
+            notes=self.block.notes,
+            structs=self._structs(self.block, self.name),
+            default=self._default_macro(),
+            prototypes=self._prototypes(),
+        )
+        source = templates().get_template("source.c.j2").render(
+            **context, cores="\n".join(cores), publics="\n".join(publics)
+        )
+        return CText(self.name, self.precision, _tidy(header), _tidy(source), self.operations)
+
+    # -- header -------------------------------------------------------------------------------------------------------
+
+    def _title(self) -> str:
+        kind = "single" if self.precision.is_float else "double"
+        return f"{self.name}: {self.block.doc.rstrip('.') or 'a block'}, in {kind} precision."
+
+    def _equation_lines(self) -> list[str]:
+        return [
+            line
+            for equation in self.block.equations
+            for line in wrap_line(equation.replace("*/", "* /"), " *   ", hanging="      ")
+        ]
+
+    def _structs(self, block: Block, prefix: str) -> str:
+        """Return all struct definitions, those of parts first."""
+        texts = [self._structs(part, f"{prefix}_{name}") for name, part in block.parts.items()]
+        types = {part: f"{prefix}_{part}" for part in block.parts}
+        params = block.param_group().members
+        if params:
+            texts.append(
+                self._struct(
+                    f"{prefix}_params_t",
+                    params,
+                    {name: f"{value}_params_t" for name, value in types.items()},
+                    "What may be tuned without exporting again."
+                    + (f" Start from {self.name.upper()}_PARAMS_DEFAULT." if prefix == self.name else ""),
+                )
+            )
+        texts.append(
+            self._struct(
+                f"{prefix}_state_t",
+                block.memory_group().members,
+                {name: f"{value}_state_t" for name, value in types.items()},
+                "The memory. Copy it, save it, put it where you like.",
+            )
+        )
+        for entry in block.entries.values():
+            if entry.inputs:
+                texts.append(self._struct(f"{prefix}_{entry.name}_in_t", entry.inputs, {}, ""))
+            if entry.outputs:
+                texts.append(
+                    self._struct(f"{prefix}_{entry.name}_out_t", entry.outputs, self._out_types(block, entry, prefix), "")
+                )
+        return "\n".join(texts)
+
+    def _out_types(self, block: Block, entry: Entry, prefix: str) -> dict[str, str]:
+        types = {}
+        for signal in entry.outputs:
+            if signal.kind is Kind.STATUS:
+                types[signal.name] = f"{self.name}_status_t"
+            elif signal.kind is Kind.GROUP:
+                types[signal.name] = self._group_type(block, signal, prefix)
+        return types
+
+    def _group_type(self, block: Block, signal: Signal, prefix: str) -> str:
+        if signal.name in block.parts:
+            return f"{prefix}_{signal.name}_step_out_t"
+        for other in block.entries.values():
+            if other.name in (signal.name, f"update_{signal.name}") and other.outputs == signal.members:
+                return f"{prefix}_{other.name}_out_t"
+        raise ValueError(f"no entry gives the group {signal.name!r}")
+
+    def _struct(self, name: str, signals: Sequence[Signal], types: dict[str, str], comment: str) -> str:
+        lines = [*(comment_lines(comment, "") if comment else []), "typedef struct", "{"]
+        lines += struct_lines(list(signals), self.precision, types) or ["    uint8_t unused;  /* nothing to remember */"]
+        lines += [f"}} {name};", ""]
+        return "\n".join(lines)
+
+    def _default_macro(self) -> str:
+        if not self.block.param_group().members:
+            return ""
+        head = f"#define {self.name.upper()}_PARAMS_DEFAULT"
+        words = default_text(self.block.param_group().members, self.precision).split(" ")
+        lines, current = [], head
+        for word in words:
+            if len(current) + len(word) + 3 > WIDTH:
+                lines.append(current + " \\")
+                current = "    " + word
+            else:
+                current += " " + word
+        return "\n".join([*lines, current])
+
+    def _public_signature(self, entry: Entry) -> str:
+        p = self.name
+        parts = [f"{p}_state_t *state"]
+        if self.block.param_group().members:
+            parts.append(f"const {p}_params_t *params")
+        if entry.inputs:
+            parts.append(f"const {p}_{entry.name}_in_t *in")
+        if has_outputs(entry):
+            parts.append(f"{p}_{entry.name}_out_t *out")
+        return f"{p}_status_t {p}_{entry.name}({', '.join(parts)})"
+
+    def _prototypes(self) -> str:
+        lines: list[str] = []
+        for entry in self.block.entries.values():
+            note = entry.doc + (" `out` is written when the status is not negative." if has_outputs(entry) else "")
+            lines += comment_lines(note.strip(), "") if note.strip() else []
+            signature = wrap_signature(self._public_signature(entry))
+            lines += [*signature[:-1], signature[-1] + ";", ""]
+        return "\n".join(lines)
+
+    # -- source -------------------------------------------------------------------------------------------------------
+
+    def _cores(self, block: Block, prefix: str) -> list[str]:
+        lines: list[str] = []
+        for name, part in block.parts.items():
+            lines += self._cores(part, f"{prefix}_{name}")
+        hold = next(
+            (item for entry in block.entries.values() for item in walk(entry.body) if isinstance(item, HoldVariances)), None
+        )
+        if hold is not None:
+            lines += self._hold_variances(hold, prefix)
+        if block is not self.block:
+            used = {"init", "step"}
+            used |= {call.entry for item in walk(block.entries["step"].body) if (call := _call_of(item))}
+        for entry in _calls_first(list(block.entries.values())):
+            if block is not self.block and entry.name not in used:
+                continue
+            written = CoreWriter(block, entry, prefix, self.style, self.name).write()
+            self.used |= written.functions
+            key = entry.name if prefix == self.name else f"{prefix.removeprefix(self.name + '_')}.{entry.name}"
+            self.operations[key] = dict(sorted(written.operations.items()))
+            counted = _operations_text(written.operations)
+            lines += ["", *(comment_lines(counted, "") if counted else []), *written.lines]
+        return lines
+
+    def _public(self, entry: Entry) -> list[str]:
+        p, u = self.name, self.name.upper()
+        lines = [*wrap_signature(self._public_signature(entry)), "{"]
+        sequenced = is_sequenced(entry)
+        target = "state" if sequenced else "&after"
+        arguments = [] if entry.checks_params else ["state"]
+        arguments.append(target)
+        if needs_params(self.block, entry):
+            arguments.append("params")
+        arguments += [f"in->{signal.name}" for signal in entry.inputs]
+        arguments += [f"params->{place.name}" for _, place in entry.hidden]
+        if has_outputs(entry):
+            arguments.append("&answer")
+        if not sequenced:
+            lines.append(f"    {p}_state_t after;")
+        if has_outputs(entry):
+            lines.append(f"    {p}_{entry.name}_out_t answer;")
+        call = f"    const {p}_status_t status = {core_name(p, entry)}({', '.join(arguments)});"
+        lines += wrap_line(call.strip(), "    ")
+        if self.block.param_group().members and not needs_params(self.block, entry) and not entry.hidden:
+            lines += ["", "    (void)params;"]
+        commits = ([] if sequenced else ["        *state = after;"]) + (
+            ["        *out = answer;"] if has_outputs(entry) else []
+        )
+        if commits:
+            lines += ["", f"    if (status >= {u}_OK)", "    {", *commits, "    }"]
+        return [*lines, "    return status;", "}"]
+
+    def _hold_variances(self, hold: HoldVariances, prefix: str) -> list[str]:
+        """Write the rare path of `HoldVariances`: compact loops, called only when a variance left its bounds."""
+        self.used |= {"hold_variances", self.precision.function("sqrt")}
+        size = hold.size
+        same = len(set(hold.floor)) == 1 and len(set(hold.ceiling)) == 1
+        context: dict[str, Any] = {
+            "prefix": prefix,
+            "root": self.name,
+            "upper": self.name.upper(),
+            "real": self.precision.name,
+            "n": size,
+            "packed": size * (size + 1) // 2,
+            "zero": self.precision.literal(0.0),
+            "sqrt": self.precision.function("sqrt"),
+            "same": same,
+            "floors": [self.precision.literal(item) for item in hold.floor],
+            "ceilings": [self.precision.literal(item) for item in hold.ceiling],
+        }
+        text = templates().get_template("hold_variances.c.j2").render(**context)
+        return text.rstrip("\n").split("\n")
+
+
+def _call_of(item: Any) -> Any:
+    from ..symbolic.program import Call
+
+    return item if isinstance(item, Call) else None
+
+
+def _calls_first(entries: list[Entry]) -> list[Entry]:
+    """Order entries so that those called come before their callers."""
+    return sorted(entries, key=lambda entry: is_sequenced(entry))
+
+
+def _header_order() -> list[Status]:
+    return sorted(Status, key=lambda status: (status < 0, abs(int(status))))
+
+
+def _operations_text(operations: Counter[str]) -> str:
+    words = ("addition", "multiplication", "division", "negation", "selection")
+    counted = [f"{operations[w]} {w}{'' if operations[w] == 1 else 's'}" for w in words if operations[w]]
+    functions = [
+        name if count == 1 else f"{name} {count} times" for name, count in sorted(operations.items()) if name not in words
+    ]
+    return ", ".join(counted + functions) + "." if counted or functions else ""
+
+
+def _tidy(text: str) -> str:
+    """Strip trailing blanks and repeated empty lines."""
+    lines: list[str] = []
+    for line in text.split("\n"):
+        stripped = line.rstrip()
+        if stripped or (lines and lines[-1]):
+            lines.append(stripped)
+    return "\n".join(lines).rstrip("\n") + "\n"
+
+
+def check_block_name(name: str) -> str | None:
+    """Say why a block cannot be exported under this name."""
+    return why_not_a_name(name)

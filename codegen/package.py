@@ -1,0 +1,402 @@
+"""Export: derive, write C, compile, cross-check, package; and check what lies in a folder."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import platform
+import subprocess
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..symbolic.block import Block
+from ..symbolic.signals import Kind, Signal
+from .compiler import contraction_flag, find_compiler
+from .crosscheck import CheckResult, CrossCheck, Mismatch, cross_check, make_views
+from .emit import CText, emit, generator_version, templates
+from .layout import default_params
+from .style import Precision
+from .vectors import vectors_source
+from .views import NativeView, View
+
+MEASURED = frozenset({"evidence.json"})
+"""Files that hold what was measured on a machine; all others are the same bytes anywhere."""
+
+NOT_CHECKED = [
+    "whether the user's dynamics and sensors describe the real plant",
+    "whether the caller passes values in the stated units",
+    "whether sensors are sampled when the caller says they are",
+]
+
+
+class DesignError(ValueError):
+    """A design.json that does not belong to the model as it is now."""
+
+
+class ExportError(RuntimeError):
+    """A check failed: nothing was written. `check` has the results."""
+
+    def __init__(self, message: str, check: CrossCheck):
+        super().__init__(message)
+        self.check = check
+
+
+@dataclass
+class Export:
+    """What an export produced."""
+
+    block: Block
+    precision: str
+    folder: Path
+    files: dict[str, str]
+    check: CrossCheck
+    evidence: dict[str, Any]
+
+    @property
+    def passed(self) -> bool:
+        """Whether every check passed."""
+        return self.check.passed
+
+
+def build_files(block: Block, precision: str, check: CrossCheck) -> dict[str, str]:
+    """Return file name -> text of everything that follows from model and generator alone."""
+    text = emit(block, precision)
+    vectors, count = vectors_source(block, precision, check)
+    name = block.name
+    context = {
+        "name": name,
+        "upper": name.upper(),
+        "version": generator_version(),
+        "hash": block.model_hash(),
+        "params": bool(block.param_group().members),
+    }
+    entry = block.entries["step"] if "step" in block.entries else list(block.entries.values())[-1]
+    kind = Precision(precision)
+    inputs = _middle_text(entry.inputs, kind)
+    main = templates().get_template("example_main.c.j2").render(
+        **context, entry=entry.name, inputs=inputs, outputs=bool(entry.outputs)
+    )
+    files = {
+        f"{name}.h": text.header,
+        f"{name}.c": text.source,
+        "test_vectors.c": vectors,
+        "example_main.c": main,
+        "CMakeLists.txt": templates().get_template("CMakeLists.txt.j2").render(**context),
+    }
+    files["manifest.json"] = json.dumps(_manifest(block, precision, text, files, count), indent=2) + "\n"
+    return files
+
+
+def export(
+    block: Block,
+    out: Path,
+    *,
+    precision: str = "double",
+    steps: int = 100,
+    progress: Callable[[str, int, int], None] | None = None,
+    native: NativeView | None = None,
+) -> Export:
+    """Write a block's C library to ``out/<name>/``, after every check passed.
+
+    Parameters
+    ----------
+    block : Block
+        What to export.
+    out : Path
+        Folder that gets a folder named after the block.
+    precision : {"double", "float"}
+        Type of real numbers in the C.
+    steps : int
+        Length of the nominal trace of the cross-check.
+    progress : callable, optional
+        Called with (what is being done, done, in all).
+    native : NativeView, optional
+        Compiled C to check instead of the emitter's: for tests that plant a fault.
+
+    Returns
+    -------
+    Export
+        Files and evidence.
+
+    Raises
+    ------
+    CompilerError
+        If there is no C compiler.
+    ExportError
+        If a check failed. Nothing is written; what was there stays.
+    """
+    report = progress or (lambda what, done, total: None)
+    report("compile", 0, 1)
+    views = make_views(block, precision, native)
+    check = cross_check(
+        block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)
+    )
+    files = build_files(block, precision, check)
+    if check.passed:
+        report("vectors", 0, 1)
+        check.results.append(run_vectors(block.name, files))
+    if not check.passed:
+        raise ExportError(failure_text(block, check), check)
+    evidence = _evidence(block, precision, check, views.native)
+    files["evidence.json"] = json.dumps(evidence, indent=2) + "\n"
+    folder = out / block.name
+    write_folder(folder, files)
+    return Export(block, precision, folder, files, check, evidence)
+
+
+def failure_text(block: Block, check: CrossCheck) -> str:
+    """Return a sentence for the first failed check."""
+    first = check.failures[0]
+    why = str(first.mismatch) if first.mismatch is not None else first.note
+    return f"{block.name}: the check {first.name!r} failed: {why}"
+
+
+def write_folder(folder: Path, files: dict[str, str]) -> None:
+    """Replace a folder by these files, whole or not at all. Other files that lie there stay."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as name:
+        fresh = Path(name)
+        for file, text in files.items():
+            (fresh / file).write_text(text)
+        folder.mkdir(exist_ok=True)
+        for file in files:
+            os.replace(fresh / file, folder / file)
+
+
+def run_vectors(name: str, files: dict[str, str]) -> CheckResult:
+    """Compile the shipped vectors and the example, as a user would, and run them."""
+    compiler = find_compiler()
+    result = CheckResult("shipped vectors", True)
+    with tempfile.TemporaryDirectory(prefix="plantc-") as folder_name:
+        folder = Path(folder_name)
+        for file, text in files.items():
+            (folder / file).write_text(text)
+        for main in ("test_vectors.c", "example_main.c"):
+            program = compiler.program([folder / f"{name}.c", folder / main], folder / main.removesuffix(".c"))
+            done = subprocess.run([str(program)], capture_output=True, text=True, check=False, timeout=60)
+            if main == "test_vectors.c":
+                result.calls = int(done.stdout.strip().split("\n")[-1].split(" ")[0]) if done.stdout.strip() else 0
+            if done.returncode != 0 and main == "test_vectors.c":
+                result.passed = False
+                result.note = done.stdout.strip()[:500] or f"{main} ended with {done.returncode}"
+    return result
+
+
+@dataclass
+class FolderCheck:
+    """What `check_folder` found: files that differ from what the model gives, and the results of the checks."""
+
+    folder: Path
+    changed: list[str]
+    missing: list[str]
+    check: CrossCheck
+
+    @property
+    def passed(self) -> bool:
+        """Whether the folder holds what the model gives, and it passes."""
+        return not self.changed and not self.missing and self.check.passed
+
+
+def check_folder(
+    folder: Path, block: Block, *, steps: int = 100, progress: Callable[[str, int, int], None] | None = None
+) -> FolderCheck:
+    """Compare a folder with what its model gives now, and run the checks on the C that lies there."""
+    report = progress or (lambda what, done, total: None)
+    manifest = read_manifest(folder)
+    precision = manifest["precision"]
+    name = block.name
+    present = {file: (folder / file).read_text() for file in manifest["files"] if (folder / file).is_file()}
+    missing = [file for file in manifest["files"] if file not in present]
+    native = None
+    if f"{name}.h" in present and f"{name}.c" in present and manifest["model"] == block.model_hash():
+        lying = CText(name, Precision(precision), present[f"{name}.h"], present[f"{name}.c"], {})
+        native = NativeView(block, precision, text=lying)
+    views = make_views(block, precision, native)
+    check = cross_check(
+        block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)
+    )
+    # the vectors follow from the model's own C, so that a fault in the folder cannot write itself into them
+    pristine = check if native is None else cross_check(block, precision, steps=steps)
+    expected = build_files(block, precision, pristine)
+    changed = [file for file, text in expected.items() if file in present and present[file] != text]
+    stored = folder / "manifest.json"
+    if stored.is_file() and stored.read_text() != expected["manifest.json"] and "manifest.json" not in changed:
+        changed.append("manifest.json")
+    return FolderCheck(folder, changed, missing, check)
+
+
+def read_manifest(folder: Path) -> dict[str, Any]:
+    """Return a folder's manifest.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is none, in a sentence.
+    """
+    path = folder / "manifest.json"
+    try:
+        manifest = json.loads(path.read_text())
+    except FileNotFoundError:
+        raise FileNotFoundError(f"{folder}: there is no manifest.json; give a folder that plantc export wrote") from None
+    except json.JSONDecodeError as error:
+        raise FileNotFoundError(f"{path}: not readable as JSON ({error}); export again") from None
+    if not isinstance(manifest, dict) or not {"name", "model", "precision", "files"} <= manifest.keys():
+        raise FileNotFoundError(f"{path}: not a manifest of plantc; export again")
+    return manifest
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Manifest and evidence
+
+
+def _fields(signals: tuple[Signal, ...]) -> list[dict[str, Any]]:
+    answer = []
+    for signal in signals:
+        row: dict[str, Any] = {"name": signal.name, "kind": signal.kind.value, "size": signal.size}
+        if signal.unit:
+            row["unit"] = signal.unit
+        if signal.doc:
+            row["doc"] = signal.doc
+        if signal.kind is Kind.REAL:
+            row["range"] = list(signal.uniform_range) if signal.uniform_range else "by element"
+        if signal.kind is Kind.GROUP:
+            row["fields"] = _fields(signal.members)
+        answer.append(row)
+    return answer
+
+
+def _manifest(block: Block, precision: str, text: CText, files: dict[str, str], vectors: int) -> dict[str, Any]:
+    return {
+        "name": block.name,
+        "doc": block.doc,
+        "model": block.model_hash(),
+        "generator": f"plantc {generator_version()}",
+        "precision": precision,
+        "equations": block.equations,
+        "memory": _fields(block.memory_group().members),
+        "parameters": _fields(block.param_group().members),
+        "entries": {
+            entry.name: {
+                "doc": entry.doc,
+                "inputs": _fields(entry.inputs),
+                "outputs": _fields(entry.outputs),
+                "operations": text.operations[entry.name],
+            }
+            for entry in block.entries.values()
+        },
+        "reference": "independent NumPy reference" if block.oracle is not None else "no independent reference",
+        "vectors": vectors,
+        "not_checked": NOT_CHECKED,
+        "files": {file: hashlib.sha256(content.encode()).hexdigest() for file, content in files.items()},
+    }
+
+
+def _evidence(block: Block, precision: str, check: CrossCheck, native: View) -> dict[str, Any]:
+    compiler = find_compiler()
+    types = {"memory_bytes": native.memory().nbytes, "parameter_bytes": default_params(block, Precision(precision)).nbytes}
+    return {
+        "name": block.name,
+        "model": block.model_hash(),
+        "precision": precision,
+        "passed": check.passed,
+        "compiler": {"label": compiler.label, "version": compiler.version(), "contraction": contraction_flag(False)},
+        "machine": platform.machine(),
+        **types,
+        "checks": [result.as_dict() for result in check.results],
+        "statuses_reached": dict(sorted(check.statuses.items())),
+    }
+
+
+def _middle_text(signals: tuple[Signal, ...], precision: Precision) -> str:
+    """Return an initialiser with every input at zero or the nearest end of its range, flags down."""
+    items = []
+    for signal in signals:
+        if signal.kind is Kind.FLAG:
+            items.append("false")
+        elif signal.kind is Kind.COUNT:
+            items.append("0U")
+        else:
+            values = [precision.literal(float(item)) for item in np.clip(np.zeros(signal.size), signal.low, signal.high)]
+            items.append(values[0] if signal.size == 1 else "{" + ", ".join(values) + "}")
+    return "{" + ", ".join(items) + "}" if items else ""
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Designed numbers
+
+
+def with_design(block: Block, path: Path, *, redesign: bool = False) -> tuple[Block, bool]:
+    """Return the block with the numbers of a design.json, written first where it is absent.
+
+    Parameters
+    ----------
+    block : Block
+        A block; if it has no designed numbers it is returned as it is.
+    path : Path
+        The design.json beside the model.
+    redesign : bool
+        Write the numbers anew even where they are there.
+
+    Returns
+    -------
+    (Block, bool)
+        The block, and whether the file was written.
+
+    Raises
+    ------
+    DesignError
+        If the file was made from another model; it names ``--redesign``.
+    """
+    design = block.design
+    if design is None:
+        return block, False
+    stored: dict[str, Any] = {}
+    if path.is_file():
+        try:
+            stored = json.loads(path.read_text())
+        except json.JSONDecodeError as error:
+            raise DesignError(f"{path}: not readable as JSON ({error}); mend it, or export with --redesign") from None
+    own = stored.get(block.name)
+    if own is None or redesign:
+        values = {name: np.asarray(value).tolist() for name, value in design.values.items()}
+        stored[block.name] = {"source": design.source, "values": values}
+        path.write_text(json.dumps(dict(sorted(stored.items())), indent=2) + "\n")
+        return block, True
+    if own.get("source") != design.source:
+        raise DesignError(
+            f"{path}: the numbers of {block.name!r} were designed for another model; export with --redesign to design them anew"
+        )
+    return design.rebuild({name: np.asarray(value) for name, value in own["values"].items()}), False
+
+
+def design_residuals(block: Block) -> list[CheckResult]:
+    """Derive designed numbers' properties (not digits) again."""
+    if block.design is None:
+        return []
+    results = []
+    for name, (value, limit) in block.design.properties(block.design.values).items():
+        results.append(CheckResult(f"design: {name}", value <= limit, worst=value, limit=limit))
+    return results
+
+
+__all__ = [
+    "CheckResult",
+    "DesignError",
+    "Export",
+    "ExportError",
+    "FolderCheck",
+    "Mismatch",
+    "build_files",
+    "check_folder",
+    "design_residuals",
+    "export",
+    "read_manifest",
+    "run_vectors",
+    "with_design",
+]

@@ -1,0 +1,245 @@
+"""Test vectors that ship with the C: a nominal sequence, and one call for each status that was reached."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..symbolic.block import Block
+from ..symbolic.signals import Kind, Signal
+from .crosscheck import CrossCheck, FrozenStream, Probe, default_scenario
+from .emit import generator_version, templates
+from .layout import fill, flatten
+from .style import Precision
+from .views import InterpretView, Record, View
+
+LONGEST = 24
+DIGITS = {"double": 9, "float": 6}
+TOLERANCE = {"double": 1e-7, "float": 2e-3}
+
+
+@dataclass
+class Vector:
+    """One call with what it must give. Memories are positions in a table."""
+
+    entry: str
+    start: int
+    inputs: int
+    params: int
+    expected: int
+    outputs: int
+    status: str
+
+
+class VectorTable:
+    """Collects calls and writes them as C."""
+
+    def __init__(self, block: Block, precision: Precision):
+        self.block, self.precision = block, precision
+        self.digits = DIGITS[precision.name]
+        self.memories: list[str] = []
+        self.params: list[str] = []
+        self.inputs: dict[str, list[str]] = {name: [] for name in block.entries}
+        self.outputs: dict[str, list[str]] = {name: [] for name in block.entries}
+        self.vectors: list[Vector] = []
+
+    def rounded(self, record: Record) -> Record:
+        """Return a record with every real rounded to the digits that are shipped."""
+        values = {}
+        for name, value in flatten(record).items():
+            if value.dtype.kind == "f":
+                values[name] = np.array([float(f"{item:.{self.digits - 1}e}") for item in value.astype(float)])
+        return fill(record.copy(), values)
+
+    def _position(self, table: list[str], text: str) -> int:
+        if text not in table:
+            table.append(text)
+        return table.index(text)
+
+    def add(self, probe: Probe, after: Record, outputs: Record, status: str) -> None:
+        """Add a call; the records are rounded already."""
+        entry = self.block.entries[probe.entry]
+        memory = self.block.memory_group().members
+        self.vectors.append(
+            Vector(
+                probe.entry,
+                self._position(self.memories, self.text(memory, probe.memory)),
+                self._position(self.inputs[probe.entry], self.text(entry.inputs, probe.inputs)) if entry.inputs else 0,
+                self._position(self.params, self.text(self.block.param_group().members, probe.params)),
+                self._position(self.memories, self.text(memory, after)),
+                self._position(self.outputs[probe.entry], self.text(entry.outputs, outputs)) if entry.outputs else 0,
+                status,
+            )
+        )
+
+    def text(self, signals: tuple[Signal, ...], record: Any) -> str:
+        """Return a C initialiser."""
+        items = []
+        for signal in signals:
+            value = record[signal.name]
+            if signal.kind is Kind.GROUP:
+                items.append(self.text(signal.members, value))
+                continue
+            numbers = [self._number(signal, item) for item in np.atleast_1d(value).ravel()]
+            items.append(numbers[0] if signal.size == 1 else "{" + ", ".join(numbers) + "}")
+        return "{" + (", ".join(items) or "0U") + "}"
+
+    def _number(self, signal: Signal, value: Any) -> str:
+        if signal.kind is Kind.FLAG:
+            return "true" if value else "false"
+        if signal.kind is Kind.COUNT:
+            return f"{int(value)}U"
+        if signal.kind is Kind.STATUS:
+            return f"({self.block.name}_status_t){int(value)}"
+        number = float(value)
+        if np.isnan(number):
+            return "NAN"
+        if np.isinf(number):
+            return "INFINITY" if number > 0 else "-INFINITY"
+        return self.precision.literal(float(f"{number:.{self.digits - 1}e}"))
+
+
+def vectors_source(block: Block, precision: str, check: CrossCheck) -> tuple[str, int]:
+    """Return the C text of the vectors with their runner, and how many there are.
+
+    Parameters
+    ----------
+    block : Block
+        The block.
+    precision : {"double", "float"}
+        Of the C.
+    check : CrossCheck
+        A finished cross-check: where calls for the rarer statuses are taken from.
+    """
+    kind = Precision(precision)
+    table = VectorTable(block, kind)
+    view = InterpretView(block)
+    shape = View(block, precision)
+    scenario = block.scenario or default_scenario(block)
+    stream: Any = FrozenStream(1)
+    params = shape.params()
+    sizes = _sizes(block, shape, view, params)
+    memory = shape.memory()
+    seen: set[tuple[str, str]] = set()
+    for k, (entry, values) in enumerate(scenario.calls(stream, LONGEST)):
+        inputs = table.rounded(shape.inputs(entry, values))
+        probe = Probe("vectors", k, entry, memory, inputs, params)
+        after = _add(table, view, shape, probe)
+        seen.add((entry, table.vectors[-1].status))
+        memory = after
+    for probe in check.calls:
+        if probe.answer is None or (probe.entry, probe.answer.status.name) in seen:
+            continue
+        clean = Probe("vectors", 0, probe.entry, table.rounded(probe.memory), table.rounded(probe.inputs), table.rounded(probe.params))
+        if not _is_sturdy(view, clean, probe.answer.status, sizes, precision):
+            continue
+        seen.add((probe.entry, probe.answer.status.name))
+        _add(table, view, shape, clean)
+    text = templates().get_template("test_vectors.c.j2").render(
+        name=block.name,
+        upper=block.name.upper(),
+        version=generator_version(),
+        hash=block.model_hash(),
+        real=kind.name,
+        fabs=kind.function("fabs"),
+        tolerance=kind.literal(TOLERANCE[precision]),
+        zero=kind.literal(0.0),
+        two_pi=kind.literal(2 * np.pi),
+        memories=table.memories,
+        params=table.params if block.param_group().members else [],
+        entries=[
+            (
+                entry.name,
+                table.inputs[entry.name],
+                table.outputs[entry.name],
+                _comparisons(entry.outputs, "answer", "expected"),
+            )
+            for entry in block.entries.values()
+        ],
+        memory_comparisons=_comparisons(block.memory_group().members, "state", "wanted"),
+        scales=table.text(block.memory_group().members, table.rounded(sizes)),
+        vectors=table.vectors,
+    )
+    return _wrapped(text), len(table.vectors)
+
+
+def _add(table: VectorTable, view: View, shape: View, probe: Probe) -> Record:
+    """Run a call in double precision, add it, and return the memory after it as it is shipped."""
+    answer = view.call(
+        probe.entry,
+        fill(view.memory(), flatten(probe.memory)),
+        fill(view.inputs(probe.entry, {}), flatten(probe.inputs)),
+        fill(view.params(), flatten(probe.params)),
+    )
+    after = table.rounded(fill(shape.memory(), flatten(answer.memory)))
+    outputs = table.rounded(fill(shape.outputs(probe.entry), flatten(answer.outputs)))
+    if answer.status < 0:
+        after = probe.memory
+    table.add(probe, after, outputs, answer.status.name)
+    return after
+
+
+def _is_sturdy(view: View, probe: Probe, status: Any, sizes: Record, precision: str) -> bool:
+    """Whether a call keeps its status, and its numbers within the tolerance, where its memory is rounded anew."""
+    memory = fill(view.memory(), flatten(probe.memory))
+    inputs = fill(view.inputs(probe.entry, {}), flatten(probe.inputs))
+    params = fill(view.params(), flatten(probe.params))
+    answer = view.call(probe.entry, memory, inputs, params)
+    if answer.status != status or answer.margin < 1e-4:
+        return False
+    unit = 100.0 ** (-DIGITS[precision] / 2) * 10
+    for sign in (-1.0, 1.0):
+        moved = memory.copy()
+        for k, (name, value) in enumerate(flatten(memory).items()):
+            if value.dtype.kind == "f":
+                pattern = np.where((np.arange(value.size) + k) % 2 == 0, sign, -sign)
+                fill(moved, {name: value * (1 + unit * pattern)})
+        other = view.call(probe.entry, moved, inputs, params)
+        if other.status != status:
+            return False
+        for name, value in flatten(answer.memory).items():
+            if value.dtype.kind == "f":
+                allowed = 0.02 * TOLERANCE[precision] * (np.abs(value) + flatten(sizes)[name].astype(float))
+                if not np.all(np.abs(flatten(other.memory)[name] - value) <= allowed):
+                    return False
+    return True
+
+
+def _sizes(block: Block, shape: View, view: View, params: Record) -> Record:
+    """Return a memory whose fields are the natural size of an error in them: sigma after init, else 1."""
+    start = view.call("init", view.memory(), view.inputs("init", {}), fill(view.params(), flatten(params))).memory
+    scenario = block.scenario
+    sizes = {} if scenario is None or scenario.scales is None else scenario.scales(flatten(start))
+    record = shape.memory()
+    for name, value in flatten(record).items():
+        if value.dtype.kind == "f":
+            fill(record, {name: np.broadcast_to(np.asarray(sizes.get(name, 1.0)), value.shape)})
+    return record
+
+
+def _comparisons(signals: tuple[Signal, ...], left: str, right: str, path: str = "") -> list[tuple[str, str, str, int]]:
+    """Return (kind, field, scale field, size) for every field to be compared."""
+    answer = []
+    for signal in signals:
+        if signal.kind is Kind.GROUP:
+            answer += _comparisons(signal.members, left, right, f"{path}{signal.name}.")
+        else:
+            kind = "angle" if signal.angle else signal.kind.value
+            answer.append((kind, path + signal.name, path + signal.name, signal.size))
+    return answer
+
+
+def _wrapped(text: str) -> str:
+    """Break long initialiser lines."""
+    lines = []
+    for line in text.split("\n"):
+        while len(line) > 120:
+            cut = line.rfind(", ", 0, 119)
+            if cut < 20:
+                break
+            lines.append(line[: cut + 1])
+            line = "     " + line[cut + 2 :]
+        lines.append(line.rstrip())
+    return "\n".join(lines).rstrip("\n") + "\n"

@@ -1,0 +1,44 @@
+"""plantc, the compiler for plants.
+
+Write a plant once, symbolically; get its Kalman filter as standalone C99 that was compiled and shown to compute what the
+Python says.
+
+>>> from plantc import Plant, extended_kalman_filter
+>>> cart = Plant("cart")
+>>> position, speed = cart.state("position", unit="m"), cart.state("speed", unit="m/s")
+>>> gust = cart.noise("gust", density=0.01, unit="m/s^2")
+>>> cart.dynamics({position: speed, speed: gust})
+>>> cart.sensor("gps", position, unit="m", variance=4.0)
+>>> cart_ekf = extended_kalman_filter(cart.discretise("exact", dt=0.1), initial_variance={position: 100, speed: 1})
+>>> list(cart_ekf.entries)
+['init', 'predict', 'update_gps', 'step', 'inflate']
+"""
+
+from .codegen import InterpretView, NativeView, ReferenceView, Trace, cross_check, emit, export
+from .symbolic import Attitude, Block, ModelError, Plant, Status
+from .symbolic.analysis import OperatingPoint, linearise, trim
+from .symbolic.composition import connect, delay
+from .symbolic.estimators import extended_kalman_filter, kalman_filter, steady_state_kalman_filter
+
+__all__ = [
+    "Attitude",
+    "Block",
+    "InterpretView",
+    "ModelError",
+    "NativeView",
+    "OperatingPoint",
+    "Plant",
+    "ReferenceView",
+    "Status",
+    "Trace",
+    "connect",
+    "cross_check",
+    "delay",
+    "emit",
+    "export",
+    "extended_kalman_filter",
+    "kalman_filter",
+    "linearise",
+    "steady_state_kalman_filter",
+    "trim",
+]

@@ -1,0 +1,318 @@
+"""The command line: derive, export, check, demo."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NoReturn
+
+import click
+import numpy as np
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+from . import models
+from .codegen.compiler import CompilerError
+from .codegen.crosscheck import CheckResult
+from .codegen.emit import generator_version
+from .codegen.package import (
+    DesignError,
+    Export,
+    ExportError,
+    check_folder,
+    design_residuals,
+    export,
+    read_manifest,
+    with_design,
+)
+from .models import UsageError
+from .symbolic import Block, ModelError
+
+GOOD, CHECK_FAILED, USER_MUST_MEND = 0, 1, 2
+
+
+class Session:
+    """One run of a command: where its messages go, and how it ends."""
+
+    def __init__(self, as_json: bool, debug: bool):
+        self.as_json, self.debug = as_json, debug
+        self.console = Console(stderr=True, highlight=False, soft_wrap=True)
+
+    def say(self, text: str) -> None:
+        """Print a message, to standard error."""
+        self.console.print(text, markup=False)
+
+    def finish(self, result: dict[str, Any], summary: str, status: int) -> NoReturn:
+        """Print the JSON object if asked for, then the summary, and leave."""
+        if self.as_json:
+            click.echo(json.dumps({"status": status, "summary": summary, **result}, indent=2))
+        self.say(summary)
+        sys.exit(status)
+
+    def run(self, body: Callable[[], NoReturn]) -> NoReturn:
+        """Run a command; whatever goes wrong becomes one sentence and an exit status."""
+        try:
+            body()
+        except (UsageError, ModelError, DesignError, CompilerError, FileNotFoundError, PermissionError) as error:
+            if self.debug:
+                raise
+            self.finish({"error": str(error)}, f"error: {error}", USER_MUST_MEND)
+        except ExportError as error:
+            if self.debug:
+                raise
+            checks = [result.as_dict() for result in error.check.results]
+            self.finish({"error": str(error), "checks": checks}, f"failed: {error}", CHECK_FAILED)
+        except KeyboardInterrupt:
+            self.finish({"error": "interrupted"}, "interrupted: nothing was written", USER_MUST_MEND)
+        except Exception as error:
+            if self.debug:
+                raise
+            text = f"plantc itself failed ({type(error).__name__}: {error}); run again with --debug and report it"
+            self.finish({"error": text}, f"error: {text}", USER_MUST_MEND)
+        raise AssertionError("a command ends by finish")
+
+    def progress(self) -> Progress:
+        """Return a progress display; silent where the output is no terminal."""
+        columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"), TimeElapsedColumn())
+        return Progress(*columns, console=self.console, transient=True, disable=not self.console.is_terminal)
+
+
+def _common(function: Callable[..., Any]) -> Callable[..., Any]:
+    for option in (
+        click.option("--json", "as_json", is_flag=True, help="Print one JSON object on standard output."),
+        click.option("--debug", is_flag=True, help="Show a traceback if something fails."),
+    ):
+        function = option(function)
+    return function
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(generator_version(), prog_name="plantc")
+def main() -> None:
+    """Compile plants: a symbolic model in Python in, verified standalone C99 out.
+
+    Exit status: 0 good, 1 a check failed, 2 something to mend.
+    """
+
+
+@main.command(name="derive")
+@click.argument("model")
+@click.option("--at", "point", default="", help="Operating point: a name in the file, or x=1,u=2.")
+@click.option("--dt", type=float, default=None, help="Time step, for a discrete plant whose time step is an input.")
+@_common
+def derive_command(model: str, point: str, dt: float | None, as_json: bool, debug: bool) -> None:
+    """Matrices, eigenvalues and ranks of the plants in MODEL (file.py or file.py:name) at an operating point."""
+    session = Session(as_json, debug)
+
+    def body() -> NoReturn:
+        plants, names, path = models.plants_of(model)
+        answers = []
+        for label, plant in plants:
+            given = models.operating_point(point, plant, names, path) if point else {}
+            answer = _derived(label, plant, given, dt)
+            answers.append(answer)
+            for line in _derived_text(answer):
+                session.say(line)
+        session.finish({"plants": answers}, f"{path}: {len(answers)} plant(s) derived", GOOD)
+
+    session.run(body)
+
+
+def _derived(label: str, plant: Any, given: dict[str, Any], dt: float | None) -> dict[str, Any]:
+    from .symbolic.analysis import OperatingPoint, linearise
+
+    at = OperatingPoint.at(plant, given)
+    options = {"dt": dt} if dt is not None else {}
+    made = linearise(plant, at, **options)
+    control, observe = made.controllability(), made.observability()
+    return {
+        "name": label,
+        "plant": plant.name,
+        "discrete": plant.is_discrete,
+        "at": {key: np.asarray(value).tolist() for key, value in at.items()},
+        "states": list(made.states),
+        "inputs": list(made.inputs),
+        "outputs": list(made.outputs),
+        "A": made.A.tolist(),
+        "B": made.B.tolist(),
+        "C": made.C.tolist(),
+        "D": made.D.tolist(),
+        "eigenvalues": [[float(value.real), float(value.imag)] for value in made.eigenvalues()],
+        "controllability_rank": control.rank,
+        "observability_rank": observe.rank,
+    }
+
+
+def _derived_text(answer: dict[str, Any]) -> list[str]:
+    n = len(answer["states"])
+    kind = "discrete" if answer["discrete"] else "continuous"
+    lines = [f"{answer['name']} (plant {answer['plant']}, {kind}), states {', '.join(answer['states'])}"]
+    for key in "ABCD":
+        matrix = np.array(answer[key])
+        if matrix.size:
+            text = np.array2string(matrix, precision=6, suppress_small=True, max_line_width=118, threshold=400)
+            lines += [f"{key} =", text]
+    values = ", ".join(f"{re:.6g}{im:+.6g}j" if im else f"{re:.6g}" for re, im in answer["eigenvalues"])
+    lines.append(f"eigenvalues: {values}")
+    lines.append(f"controllable: rank {answer['controllability_rank']} of {n}; observable: rank {answer['observability_rank']} of {n}")
+    return lines
+
+
+@main.command(name="export")
+@click.argument("model")
+@click.option("--out", type=click.Path(path_type=Path), default=Path("generated_c"), show_default=True, help="Output folder.")
+@click.option("--precision", type=click.Choice(["double", "float"]), default="double", show_default=True)
+@click.option("--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace.")
+@click.option("--redesign", is_flag=True, help="Design the numbers of design.json anew.")
+@_common
+def export_command(
+    model: str, out: Path, precision: str, steps: int, redesign: bool, as_json: bool, debug: bool
+) -> None:
+    """Write C for the blocks of MODEL into OUT/BLOCK/, compiled and cross-checked; nothing is written if a check fails."""
+    session = Session(as_json, debug)
+
+    def body() -> NoReturn:
+        blocks, path = models.blocks_of(model)
+        exports = _export_all(session, blocks, path, out, precision, steps, redesign)
+        result = {"blocks": [_export_json(item) for item in exports]}
+        folders = ", ".join(str(item.folder) for item in exports)
+        session.finish(result, f"exported, all checks passed: {folders}", GOOD)
+
+    session.run(body)
+
+
+def _export_all(
+    session: Session, blocks: list[Block], path: Path, out: Path, precision: str, steps: int, redesign: bool
+) -> list[Export]:
+    exports = []
+    for given in blocks:
+        block, wrote = with_design(given, path.parent / "design.json", redesign=redesign)
+        if wrote:
+            session.say(f"{block.name}: designed numbers written to {path.parent / 'design.json'}")
+        started = time.perf_counter()
+        with session.progress() as display:
+            task = display.add_task(block.name, total=None)
+
+            def report(what: str, done: int, total: int, task: Any = task, name: str = block.name) -> None:
+                display.update(task, description=f"{name}: {what}", completed=done, total=total)
+
+            exports.append(export(block, out, precision=precision, steps=steps, progress=report))
+        for line in evidence_text(exports[-1], time.perf_counter() - started):
+            session.say(line)
+    return exports
+
+
+def _export_json(item: Export) -> dict[str, Any]:
+    return {"folder": str(item.folder), **item.evidence}
+
+
+def evidence_text(item: Export, seconds: float) -> list[str]:
+    """Return what an export measured, for a terminal."""
+    evidence = item.evidence
+    lines = [
+        f"{item.block.name}: model {evidence['model']}, {item.precision}, compiled by {evidence['compiler']['label']} "
+        f"({evidence['compiler']['contraction']}), {evidence['memory_bytes']} bytes of memory, {seconds:.1f} s"
+    ]
+    lines += checks_text(item.check.results)
+    reached = ", ".join(f"{name} {count}" for name, count in sorted(item.check.statuses.items(), key=lambda row: -row[1]))
+    lines.append(f"  statuses reached: {reached}")
+    return lines
+
+
+def checks_text(results: list[CheckResult]) -> list[str]:
+    """Return one line for each check."""
+    lines = []
+    for result in results:
+        mark = "ok  " if result.passed else "FAIL"
+        text = f"  {mark} {result.name:<38} {result.calls:>5} calls"
+        if result.limit:
+            text += f"  worst {result.worst:8.1e}  limit {result.limit:.0e}"
+        if result.at_switches:
+            text += f"  ({result.at_switches} at a switch)"
+        if result.ill_conditioned:
+            text += f"  ({result.ill_conditioned} ill-conditioned)"
+        if result.note:
+            text += f"  {result.note}"
+        lines.append(text)
+        if result.mismatch is not None:
+            lines.append(f"       {result.mismatch}")
+    return lines
+
+
+@main.command(name="check")
+@click.argument("folder", type=click.Path(path_type=Path))
+@click.option("--model", required=True, help="The model, file.py or file.py:name.")
+@click.option("--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace.")
+@_common
+def check_command(folder: Path, model: str, steps: int, as_json: bool, debug: bool) -> None:
+    """Is what lies in FOLDER still what its model gives, and does it still pass?"""
+    session = Session(as_json, debug)
+
+    def body() -> NoReturn:
+        manifest = read_manifest(folder)
+        blocks, path = models.blocks_of(model)
+        wanted = [block for block in blocks if block.name == manifest["name"]]
+        if not wanted:
+            names = ", ".join(block.name for block in blocks)
+            raise UsageError(f"{path}: it has no block {manifest['name']!r}, which {folder} was written from; it has {names}")
+        block, _ = with_design(wanted[0], path.parent / "design.json")
+        with session.progress() as display:
+            task = display.add_task(block.name, total=None)
+            found = check_folder(
+                folder,
+                block,
+                steps=steps,
+                progress=lambda what, done, total: display.update(
+                    task, description=f"{block.name}: {what}", completed=done, total=total
+                ),
+            )
+        found.check.results += design_residuals(block)
+        for line in checks_text(found.check.results):
+            session.say(line)
+        for file in found.changed:
+            session.say(f"  FAIL {folder / file} is not what the model gives now")
+        for file in found.missing:
+            session.say(f"  FAIL {folder / file} is missing")
+        result = {
+            "folder": str(folder),
+            "changed": found.changed,
+            "missing": found.missing,
+            "checks": [item.as_dict() for item in found.check.results],
+        }
+        if found.passed:
+            session.finish(result, f"{folder}: as the model gives it, all checks passed", GOOD)
+        what = "a check failed" if not found.check.passed else "not what the model gives now; export again"
+        session.finish(result, f"failed: {folder}: {what}", CHECK_FAILED)
+
+    session.run(body)
+
+
+@main.command(name="demo")
+@click.option(
+    "--out", type=click.Path(path_type=Path), default=Path("plantc-demo"), show_default=True, help="Output folder."
+)
+@_common
+def demo_command(out: Path, as_json: bool, debug: bool) -> None:
+    """The main job in a minute: the Kalman filter of a quadrotor as verified C, its evidence, and a picture of it at work."""
+    session = Session(as_json, debug)
+
+    def body() -> NoReturn:
+        from .demo import picture
+        from .examples.quadrotor_ekf import quadrotor_ekf
+
+        session.say("The extended Kalman filter of a 12-state quadrotor: derived, written as C, compiled, cross-checked.")
+        path = Path(__file__).resolve().parent
+        exports = _export_all(session, [quadrotor_ekf], path / "demo.py", out, "double", 100, False)
+        image = picture(quadrotor_ekf, out / "quadrotor_ekf.svg")
+        session.say(f"  the compiled C at work: {image}")
+        result = {"blocks": [_export_json(item) for item in exports], "picture": str(image)}
+        session.finish(result, f"done: the C lies in {exports[0].folder}", GOOD)
+
+    session.run(body)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,34 @@
+"""Rewrites `generated_c/` from the examples: `python -m plantc.regenerate`, in a checkout."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from .codegen import export
+from .examples.attitude_ekf import attitude_ekf
+from .examples.pendulum import pendulum_ekf
+from .examples.quadrotor_ekf import quadrotor_ekf, quadrotor_kf
+from .symbolic import Block
+
+EXAMPLES: list[tuple[Block, str]] = [
+    (pendulum_ekf, "float"),
+    (quadrotor_ekf, "double"),
+    (quadrotor_kf, "double"),
+    (attitude_ekf, "float"),
+]
+"""Block and precision of everything under `generated_c/`."""
+
+
+def main() -> None:
+    """Export every example."""
+    folder = Path("generated_c")
+    if not folder.is_dir():
+        sys.exit("there is no generated_c here; run this at the top of a checkout of plantc")
+    for block, precision in EXAMPLES:
+        done = export(block, folder, precision=precision)
+        print(f"{done.folder}: {len(done.files)} files, model {block.model_hash()}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,442 @@
+"""The Block: a discrete-time component with memory, parameters and entries. The only thing that can be exported."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import ModelError
+from .expressions import equation_text
+from .names import check_name, check_unique
+from .plant import Symbol
+from .program import (
+    AllOf,
+    Assign,
+    Call,
+    Condition,
+    Element,
+    Entry,
+    Evaluate,
+    HoldVariances,
+    IsSet,
+    Place,
+    Refuse,
+    Statement,
+    Within,
+    packed_index,
+    walk,
+)
+from .signals import WIDE, Kind, Signal, Status, check_default, make_range
+
+Record = NDArray[np.void]
+
+
+class Oracle(Protocol):
+    """An independent NumPy implementation of a block; it works in the precision of the arrays it is given."""
+
+    def call(
+        self,
+        entry: str,
+        memory: Mapping[str, Any],
+        inputs: Mapping[str, Any],
+        params: Mapping[str, Any],
+        precision: type,
+    ) -> tuple[int, dict[str, Any], dict[str, Any]]:
+        """Return (status, memory, outputs), keyed by (dotted) field name."""
+        ...
+
+
+@dataclass(frozen=True)
+class DerivativeCheck:
+    """A derivative of ours beside a function to differentiate: `ours(*points)` against d `function`/d argument."""
+
+    name: str
+    ours: Callable[[Mapping[str, Any]], NDArray[Any]]
+    complex_step: Callable[[Mapping[str, Any]], NDArray[Any]]
+    differences: Callable[[Mapping[str, Any]], NDArray[Any]]
+    kinks: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Design:
+    """Numbers that a solver designed (they differ in their last bits between machines).
+
+    Attributes
+    ----------
+    values : dict
+        Name -> array, rounded to 9 digits.
+    source : str
+        Hash of what they were made from.
+    rebuild : callable
+        Values -> the Block with these numbers.
+    properties : callable
+        Values -> residuals by name, each to be below its limit: what `check` compares instead of digits.
+    """
+
+    values: dict[str, Any]
+    source: str
+    rebuild: Callable[[dict[str, Any]], Block]
+    properties: Callable[[dict[str, Any]], dict[str, tuple[float, float]]]
+
+
+@dataclass
+class Scenario:
+    """How to exercise a block in a way that makes sense: calls, memories, and the natural size of each field.
+
+    Attributes
+    ----------
+    calls : callable
+        (random generator, number of steps) -> iterator of (entry, inputs), a plausible sequence.
+    memory : callable
+        Random generator -> a plausible memory, as field -> array.
+    scales : callable
+        Memory -> field -> natural size of an error (sigma), or None if it is not known.
+    gaps : str
+        Name of the input that is the time step, for traces with long gaps.
+    """
+
+    calls: Callable[[np.random.Generator, int], Iterator[tuple[str, dict[str, Any]]]]
+    memory: Callable[[np.random.Generator], dict[str, Any]]
+    scales: Callable[[Mapping[str, Any]], dict[str, Any]] | None = None
+    gaps: str = ""
+
+
+class Block:
+    """A discrete-time component: parameters, memory, and entries.
+
+    Estimators and controllers are made by functions that return a Block; a user's own is built by names.
+
+    Parameters
+    ----------
+    name : str
+        C identifier; prefix of everything in the generated files.
+    doc : str
+        Its meaning; travels to the C header.
+
+    Examples
+    --------
+    >>> from plantc.symbolic import Block
+    >>> low_pass = Block("low_pass", doc="first-order low-pass filter")
+    >>> raw = low_pass.input("raw", unit="V", range=(-10, 10))
+    >>> weight = low_pass.parameter("weight", 0.1, range=(0, 1))
+    >>> smooth = low_pass.memory("smooth", initial=0.0, unit="V", range=(-10, 10))
+    >>> following = smooth + weight * (raw - smooth)
+    >>> low_pass.entry("step", inputs=[raw], following={smooth: following}, outputs={"filtered": following})
+    >>> [entry.name for entry in low_pass.entries.values()]
+    ['init', 'step']
+    """
+
+    def __init__(self, name: str, *, doc: str = ""):
+        self.name = check_name("block", name, "Block")
+        self.doc = doc
+        self.memory_signals: list[Signal] = []
+        self.param_signals: list[Signal] = []
+        self.entries: dict[str, Entry] = {}
+        self.parts: dict[str, Block] = {}
+        self.equations: list[str] = []
+        self.notes: list[str] = []
+        self.oracle: Oracle | None = None
+        self.scenario: Scenario | None = None
+        self.derivative_checks: list[DerivativeCheck] = []
+        self.design: Design | None = None
+        self.float_bound = 0.05
+        self.source_hash = ""
+        self._inputs: dict[str, Symbol] = {}
+        self._symbols: list[Symbol] = []
+
+    # -- building one's own -------------------------------------------------------------------------------------------
+
+    def parameter(
+        self, name: str, default: Any, *, unit: str = "", range: tuple[Any, Any] | None = None, doc: str = ""
+    ) -> Symbol:
+        """Declare a run-time parameter, checked by `init` (BAD_PARAM outside its range)."""
+        size = int(np.size(default))
+        check_name("parameter", name, self.name)
+        low, high = make_range(self.name, f"parameter {name!r}", range, (-WIDE, WIDE), size)
+        values = check_default(self.name, f"parameter {name!r}", default, low, high)
+        signal = Signal(name, size, unit, low, high, doc, default=values)
+        self.param_signals.append(signal)
+        return self._own(signal)
+
+    def input(
+        self, name: str, *, size: int = 1, unit: str = "", range: tuple[Any, Any] | None = None, doc: str = ""
+    ) -> Symbol:
+        """Declare an input; entries list the ones they take. Outside its range a call is refused (BAD_INPUT)."""
+        check_name("input", name, self.name)
+        low, high = make_range(self.name, f"input {name!r}", range, (-WIDE, WIDE), size)
+        symbol = self._own(Signal(name, size, unit, low, high, doc))
+        self._inputs[name] = symbol
+        return symbol
+
+    def memory(
+        self, name: str, *, initial: Any = 0.0, unit: str = "", range: tuple[Any, Any] | None = None, doc: str = ""
+    ) -> Symbol:
+        """Declare a field of the memory; its initial value is a parameter ``<name>_0``. Outside: OVERFLOW."""
+        size = int(np.size(initial))
+        check_name("memory field", name, self.name)
+        low, high = make_range(self.name, f"memory field {name!r}", range, (-WIDE, WIDE), size)
+        values = check_default(self.name, f"memory field {name!r}", initial, low, high)
+        signal = Signal(name, size, unit, low, high, doc)
+        self.memory_signals.append(signal)
+        self.param_signals.append(replace(signal, name=f"{name}_0", default=values, doc=f"initial {name}"))
+        return self._own(signal)
+
+    def entry(
+        self,
+        name: str,
+        *,
+        inputs: Sequence[Symbol] = (),
+        following: Mapping[Symbol, Any] | None = None,
+        outputs: Mapping[str, Any] | None = None,
+        output_units: Mapping[str, str] | None = None,
+        output_ranges: Mapping[str, tuple[float, float]] | None = None,
+        guards: Sequence[tuple[Any, Status]] = (),
+        doc: str = "",
+    ) -> None:
+        """Add an entry given by expressions.
+
+        Parameters
+        ----------
+        name : str
+            Its name; the C function is ``<block>_<name>``.
+        inputs : sequence of Symbol
+            Declared inputs that it takes.
+        following : dict
+            Memory field -> its next value; fields left out stay.
+        outputs : dict
+            Name -> expression.
+        output_units : dict, optional
+            Name -> unit.
+        output_ranges : dict, optional
+            Output name -> (low, high); outside it the call is refused (OVERFLOW). Default -1e6 .. 1e6.
+        guards : sequence of (expression, Status)
+            Where an expression is zero (false), the call is refused with the (negative) status, in this order.
+        doc : str
+            Its meaning.
+        """
+        if self._inputs.keys() & {item.name for item in self.memory_signals}:
+            raise ModelError(f"{self.name}: an input and a memory field share a name; rename one of them")
+        if not self.entries:
+            self.entries["init"] = self._plain_init()
+        check_name("entry", name, self.name)
+        if name in self.entries:
+            raise ModelError(f"{self.name}: the entry {name!r} is defined twice; rename one of them")
+        for symbol in inputs:
+            if self._inputs.get(symbol.signal.name) is not symbol:
+                raise ModelError(f"{self.name}: {symbol.signal.name!r} is not an input of this block; declare it with input()")
+        for _, status in guards:
+            if status >= 0:
+                raise ModelError(f"{self.name}: a guard of {name!r} has the status {status.name}; give a negative one")
+        update = {symbol.signal.name: self._expression(value, symbol.signal.size) for symbol, value in (following or {}).items()}
+        unknown = set(update) - {item.name for item in self.memory_signals}
+        if unknown:
+            raise ModelError(f"{self.name}: {sorted(unknown)} are no memory fields; declare them with memory()")
+        answers = {check_name("output", key, self.name): self._expression(value) for key, value in (outputs or {}).items()}
+        signals = []
+        for key, value in answers.items():
+            given = (output_ranges or {}).get(key)
+            low, high = make_range(self.name, f"output {key!r}", given, (-WIDE, WIDE), value.numel())
+            signals.append(Signal(key, value.numel(), (output_units or {}).get(key, ""), low, high))
+        used = [*self.param_symbols(), *self.memory_symbols(), *inputs]
+        conditions = [self._expression(value, 1) for value, _ in guards]
+        function = ca.Function(
+            f"{self.name}_{name}", used, [ca.densify(item) for item in [*conditions, *update.values(), *answers.values()]]
+        )
+        if function.get_free():
+            raise ModelError(f"{self.name}: the entry {name!r} uses {function.get_free()}, which it does not take; list them")
+        reads = tuple(((self._place(symbol), symbol.signal.size),) for symbol in used)
+        guard_places = [Place("local", f"guard_{index}") for index in range(len(conditions))]
+        targets = [
+            *[(place, 1) for place in guard_places],
+            *[(Place("next", key), value.numel()) for key, value in update.items()],
+            *[(Place("out", key), value.numel()) for key, value in answers.items()],
+        ]
+        names = tuple(tuple(f"{place.name}_{i}" for i in range(size)) for place, size in targets)
+        text = []
+        for key, value in (*update.items(), *answers.items()):
+            pairs = [(ca.SX(symbol), symbol.signal.name) for symbol in used]
+            lines = equation_text(value, pairs)
+            text += [f"{key}{'' if len(lines) == 1 else f'[{i}]'} = {line}" for i, line in enumerate(lines)]
+        self.equations += [f"{name}: {line}" for line in text]
+        body: list[Statement] = [
+            Evaluate(function, reads, tuple(((place, size),) for place, size in targets), names, tuple(text))
+        ]
+        for place, (_, status) in zip(guard_places, guards, strict=True):
+            body.append(Refuse(status, IsSet(Element(place))))
+        body += [
+            Refuse(Status.OVERFLOW, Within(Place("out", signal.name), signal.low, signal.high)) for signal in signals
+        ]
+        body.append(Refuse(Status.OVERFLOW, self.judge_memory(list(update))))
+        taken = tuple(symbol.signal for symbol in inputs)
+        self.entries[name] = Entry(name, taken, tuple(signals), tuple(body), doc)
+        self.check()
+
+    def _plain_init(self) -> Entry:
+        body: list[Statement] = [
+            Assign(Place("next", signal.name), Place("param", f"{signal.name}_0"), signal.size)
+            for signal in self.memory_signals
+        ]
+        doc = "Start (or start again) from the parameters; every parameter is checked here."
+        return Entry("init", (), (), tuple(body), doc, checks_params=True)
+
+    def _own(self, signal: Signal) -> Symbol:
+        symbol = Symbol(signal)
+        self._symbols.append(symbol)
+        return symbol
+
+    def _place(self, symbol: Symbol) -> Place:
+        name = symbol.signal.name
+        if self._inputs.get(name) is symbol:
+            return Place("in", name)
+        return Place("memory" if any(item.name == name for item in self.memory_signals) else "param", name)
+
+    def param_symbols(self) -> list[Symbol]:
+        """Symbols of the declared parameters."""
+        names = {signal.name for signal in self.param_signals}
+        return [symbol for symbol in self._symbols if symbol.signal.name in names]
+
+    def memory_symbols(self) -> list[Symbol]:
+        """Symbols of the declared memory fields."""
+        names = {signal.name for signal in self.memory_signals}
+        return [symbol for symbol in self._symbols if symbol.signal.name in names]
+
+    def _expression(self, value: Any, size: int | None = None) -> ca.SX:
+        expression = ca.SX(value) if not isinstance(value, (list, tuple)) else ca.vertcat(*value)
+        expression = ca.reshape(expression, expression.numel(), 1)
+        if size is not None and expression.numel() != size:
+            raise ModelError(f"{self.name}: an expression has {expression.numel()} elements where {size} are needed")
+        return expression
+
+    # -- reading ------------------------------------------------------------------------------------------------------
+
+    def memory_signals_flat(self) -> list[Signal]:
+        """Return the memory's fields, those of parts with dotted names."""
+        return [*self.memory_signals, *self._of_parts(lambda part: part.memory_signals_flat())]
+
+    def param_signals_flat(self) -> list[Signal]:
+        """Return the parameters, those of parts with dotted names."""
+        return [*self.param_signals, *self._of_parts(lambda part: part.param_signals_flat())]
+
+    def _of_parts(self, signals: Callable[[Block], list[Signal]]) -> list[Signal]:
+        return [
+            signal.renamed(f"{name}.{signal.name}") for name, part in self.parts.items() for signal in signals(part)
+        ]
+
+    def memory_group(self) -> Signal:
+        """Return the memory as one group signal, parts nested."""
+        groups = [replace(part.memory_group(), name=name) for name, part in self.parts.items()]
+        return Signal("state", kind=Kind.GROUP, members=(*self.memory_signals, *groups))
+
+    def param_group(self) -> Signal:
+        """Return the parameters as one group signal, parts nested."""
+        groups = [replace(part.param_group(), name=name) for name, part in self.parts.items()]
+        return Signal("params", kind=Kind.GROUP, members=(*self.param_signals, *groups))
+
+    def judge_inputs(self, entry: Entry) -> Condition:
+        """Return the condition that the inputs of an entry are within their ranges.
+
+        Inputs inside a nested group belong to a Call, and are judged by the entry called.
+        """
+        signals = [signal for signal in entry.inputs if signal.kind is Kind.REAL]
+        signals += [signal for signal, _ in entry.hidden if signal.kind is Kind.REAL]
+        hidden = {signal.name for signal, _ in entry.hidden}
+        passed_on = _arguments_of_calls(entry.body)
+        return AllOf(
+            tuple(
+                Within(Place("in", signal.name), signal.low, signal.high)
+                for signal in signals
+                if signal.name not in passed_on and signal.name not in hidden
+            )
+        )
+
+    def judge_params(self) -> Condition:
+        """Return the condition that all parameters are within their ranges."""
+        return AllOf(
+            tuple(
+                Within(Place("param", signal.name), signal.low, signal.high)
+                for signal in self.param_signals
+                if signal.kind is Kind.REAL
+            )
+        )
+
+    def judge_memory(self, names: Sequence[str], held: Sequence[HoldVariances] = ()) -> Condition:
+        """Return the condition that fields of the candidate memory are within their ranges.
+
+        Variances held by a `HoldVariances` before are within theirs: of those, the elements beside the diagonal are
+        compared.
+        """
+        conditions: list[Condition] = []
+        by_name = {item.target.name: item for item in held}
+        for signal in self.memory_signals:
+            if signal.kind is not Kind.REAL or signal.name not in names:
+                continue
+            place = Place("next", signal.name)
+            if signal.name not in by_name:
+                conditions.append(Within(place, signal.low, signal.high))
+                continue
+            diagonal = _diagonal(by_name[signal.name].size)
+            conditions += [
+                Within(place, (signal.low[i],), (signal.high[i],), i) for i in range(signal.size) if i not in diagonal
+            ]
+        return AllOf(tuple(conditions))
+
+    def check(self) -> None:
+        """Raise a ModelError if generated names collide."""
+        for what, signals in (("parameter", self.param_signals), ("memory field", self.memory_signals)):
+            check_unique([(signal.name, f"the {what} {signal.name!r}") for signal in signals], self.name)
+        for entry in self.entries.values():
+            check_unique([(signal.name, f"the input {signal.name!r} of {entry.name}") for signal in entry.inputs], self.name)
+            check_unique([(signal.name, f"the output {signal.name!r} of {entry.name}") for signal in entry.outputs], self.name)
+
+    def model_hash(self) -> str:
+        """Return eight hexadecimal digits of a hash of the model: same model, same hash, on any machine."""
+        from .expressions import tape
+
+        digest = hashlib.sha256()
+
+        def feed(block: Block) -> None:
+            digest.update(f"{block.name}|{block.doc}|{block.source_hash}|{block.equations}".encode())
+            for signal in (*block.memory_signals, *block.param_signals):
+                digest.update(repr(signal).encode())
+            for entry in block.entries.values():
+                digest.update(f"{entry.name}{entry.inputs}{entry.outputs}{entry.doc}".encode())
+                for statement in walk(entry.body):
+                    if isinstance(statement, Evaluate):
+                        digest.update(repr(tape(statement.function).steps).encode())
+            for name, part in block.parts.items():
+                digest.update(name.encode())
+                feed(part)
+
+        feed(self)
+        return digest.hexdigest()[:8]
+
+
+def _diagonal(size: int) -> set[int]:
+    return {packed_index(size, i, i) for i in range(size)}
+
+
+def _arguments_of_calls(statements: Sequence[Statement]) -> set[str]:
+    """Return the names of inputs that are only handed on to calls, which judge them."""
+    handed = set()
+    for statement in walk(statements):
+        if isinstance(statement, Call):
+            handed |= {item.name for _, item in statement.arguments if isinstance(item, Place) and item.space == "in"}
+    return handed
+
+
+def places_written(statement: Statement) -> set[Place]:
+    """Return the places that a statement writes itself."""
+    if isinstance(statement, Evaluate):
+        return {place for places in statement.writes for place, _ in places}
+    writes = getattr(statement, "writes", None)
+    if writes is not None:
+        return {place for place, _ in writes}
+    target = getattr(statement, "target", None)
+    return {target} if isinstance(target, Place) else set()
+

@@ -1,0 +1,312 @@
+"""Composing Blocks: parts called in order of direct feed-through, along wires."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from .block import Block, Scenario
+from .errors import ModelError
+from .names import check_name
+from .program import Assign, Call, Entry, Place, Refuse, Statement
+from .signals import Kind, Signal, Status, check_default, same_unit
+
+
+@dataclass(frozen=True)
+class Delay:
+    """A wire that hands on what its source was one step before."""
+
+    source: str
+    initial: Any
+
+
+def delay(source: str, initial: Any = 0.0) -> Delay:
+    """Return a wire that is one step late: it breaks a loop.
+
+    Parameters
+    ----------
+    source : str
+        ``part.signal``.
+    initial : number or sequence
+        Its value in the first step; a run-time parameter.
+    """
+    return Delay(source, initial)
+
+
+def connect(blocks: Mapping[str, Block] | Sequence[Block], wires: Mapping[str, str | Delay], name: str, *, doc: str = "") -> Block:
+    """Return one Block made of parts.
+
+    Parameters
+    ----------
+    blocks : dict of str to Block, or sequence of Block
+        Parts by name (or under their own names); each has an entry `step`.
+    wires : dict
+        ``"part.input"`` -> ``"part.signal"`` or ``delay("part.signal", initial)``. A signal is an output of the part's
+        `step`, or a field of its memory after it.
+    name : str
+        Name of the composition.
+    doc : str
+        Its meaning.
+
+    Returns
+    -------
+    Block
+        Entries `init` and `step`. Inputs without a wire become inputs, named ``<part>_<input>``; memory, parameters and
+        outputs are nested by part. The oracle is composed along the same wires if every part has one.
+
+    Raises
+    ------
+    ModelError
+        If a wire names what does not exist, sizes, kinds or units differ, or parts feed each other in a loop without a
+        delay (the loop is named).
+    """
+    parts = dict(blocks) if isinstance(blocks, Mapping) else {block.name: block for block in blocks}
+    if len(parts) != len(blocks):
+        raise ModelError(f"{name}: two parts have the same name; give them names: connect({{'first': ..., 'second': ...}}, ...)")
+    return _Composer(parts, dict(wires), name, doc).build()
+
+
+class _Composer:
+    def __init__(self, parts: dict[str, Block], wires: dict[str, str | Delay], name: str, doc: str):
+        self.parts, self.name = parts, name
+        if not parts:
+            raise ModelError(f"{name}: there is nothing to connect; give at least one block")
+        for part, block in parts.items():
+            check_name("part", part, name)
+            if "step" not in block.entries:
+                raise ModelError(f"{name}: the part {part!r} has no entry 'step'; a part is called by it")
+        self.block = Block(name, doc=doc or f"composition of {', '.join(block.name for block in parts.values())}")
+        self.wires: dict[tuple[str, str], tuple[tuple[str, str], Delay | None]] = {}
+        for target, given in wires.items():
+            source = given.source if isinstance(given, Delay) else given
+            end, start = self._split(target), self._split(source)
+            self._check_wire(end, start)
+            self.wires[end] = (start, given if isinstance(given, Delay) else None)
+
+    def _split(self, text: str) -> tuple[str, str]:
+        part, _, signal = text.partition(".")
+        if part not in self.parts or not signal:
+            raise ModelError(f"{self.name}: the wire end {text!r} is not part.signal; the parts are {', '.join(self.parts)}")
+        return part, signal
+
+    def _input(self, part: str, name: str) -> Signal:
+        for signal in self.parts[part].entries["step"].inputs:
+            if signal.name == name:
+                return signal
+        known = ", ".join(signal.name for signal in self.parts[part].entries["step"].inputs)
+        raise ModelError(f"{self.name}: the part {part!r} has no input {name!r}; it has {known or 'none'}")
+
+    def _output(self, part: str, name: str) -> tuple[Signal, Place]:
+        block = self.parts[part]
+        for signal in block.memory_signals_flat():
+            if signal.name == name:
+                return signal, Place("next", f"{part}.{name}")
+        members = block.entries["step"].outputs
+        found: Signal | None = None
+        for piece in name.split("."):
+            found = next((item for item in members if item.name == piece), None)
+            members = found.members if found else ()
+        if found is None or found.kind is Kind.GROUP:
+            known = [signal.name for signal in (*block.entries["step"].outputs, *block.memory_signals_flat())]
+            raise ModelError(f"{self.name}: the part {part!r} has no signal {name!r}; it has {', '.join(known)}")
+        return found, Place("out", f"{part}.{name}")
+
+    def _check_wire(self, end: tuple[str, str], start: tuple[str, str]) -> None:
+        target, (source, _) = self._input(*end), self._output(*start)
+        text = f"{self.name}: the wire {'.'.join(start)} -> {'.'.join(end)}"
+        if target.size != source.size or target.kind is not source.kind:
+            raise ModelError(
+                f"{text} joins {source.size} {source.kind.value} element(s) to {target.size} {target.kind.value}; they must match"
+            )
+        if not same_unit(target.unit, source.unit):
+            raise ModelError(f"{text} joins [{source.unit}] to [{target.unit}]; convert the unit, or mend the wire")
+
+    def order(self) -> list[str]:
+        """Return the parts in an order in which every undelayed source comes first."""
+        needs: dict[str, set[str]] = {part: set() for part in self.parts}
+        for (part, _), ((source, _), late) in self.wires.items():
+            if late is None:
+                needs[part].add(source)
+        answer: list[str] = []
+        while len(answer) < len(self.parts):
+            ready = [part for part in self.parts if part not in answer and needs[part] <= set(answer)]
+            if not ready:
+                loop = self._loop(needs, set(self.parts) - set(answer))
+                raise ModelError(
+                    f"{self.name}: {' -> '.join(loop)} feed each other within one step; put a delay on one of these wires: "
+                    "delay('part.signal', initial)"
+                )
+            answer.append(ready[0])
+        return answer
+
+    @staticmethod
+    def _loop(needs: dict[str, set[str]], left: set[str]) -> list[str]:
+        path = [sorted(left)[0]]
+        while path.count(path[-1]) < 2:
+            path.append(sorted(needs[path[-1]] & left)[0])
+        return list(reversed(path[path.index(path[-1]) :]))
+
+    def build(self) -> Block:
+        """Assemble."""
+        block = self.block
+        block.parts = self.parts
+        order = self.order()
+        init: list[Statement] = [Call("init", (), None, part) for part in order]
+        body: list[Statement] = []
+        late: list[Statement] = []
+        inputs: list[Signal] = []
+        for part in order:
+            arguments: list[tuple[str, Place | float]] = []
+            for signal in self.parts[part].entries["step"].inputs:
+                wire = self.wires.get((part, signal.name))
+                if wire is None:
+                    name = f"{part}_{signal.name}"
+                    inputs.append(replace(signal, name=name))
+                    arguments.append((signal.name, Place("in", name)))
+                elif wire[1] is None:
+                    arguments.append((signal.name, self._output(*wire[0])[1]))
+                else:
+                    field = self._add_delay(part, signal, wire[1])
+                    arguments.append((signal.name, Place("memory", field)))
+                    init.append(Assign(Place("next", field), Place("param", f"{field}_0"), signal.size))
+                    late.append(Assign(Place("next", field), self._output(*wire[0])[1], signal.size))
+            outputs = Place("out", part) if self.parts[part].entries["step"].outputs else None
+            body.append(Call("step", tuple(arguments), outputs, part))
+        body += late
+        delays = [signal.name for signal in block.memory_signals]
+        if delays:
+            body.append(Refuse(Status.OVERFLOW, block.judge_memory(delays)))
+        groups = tuple(
+            Signal(part, kind=Kind.GROUP, members=self.parts[part].entries["step"].outputs, doc=f"what {part} gave")
+            for part in order
+            if self.parts[part].entries["step"].outputs
+        )
+        doc = "Start (or start again) from the parameters; every parameter is checked here."
+        block.entries = {
+            "init": Entry("init", (), (), tuple(init), doc, checks_params=True),
+            "step": Entry("step", tuple(inputs), groups, tuple(body), f"Call {', then '.join(order)}."),
+        }
+        block.equations = [f"{part}: {line}" for part in order for line in self.parts[part].equations]
+        block.notes = [f"{'.'.join(end)} = {'.'.join(start)}{', one step late' if late_ else ''}" for end, (start, late_) in self.wires.items()]
+        block.source_hash = "|".join(self.parts[part].source_hash for part in order) + repr(sorted(block.notes))
+        block.float_bound = max(part.float_bound for part in self.parts.values())
+        block.check()
+        if all(part.oracle is not None for part in self.parts.values()):
+            block.oracle = ComposedOracle(block, order)
+        block.scenario = self._scenario()
+        return block
+
+    def _add_delay(self, part: str, signal: Signal, wire: Delay) -> str:
+        field = f"delay_{part}_{signal.name}"
+        values = check_default(self.name, f"the delay before {part}.{signal.name}", wire.initial, signal.low, signal.high)
+        doc = f"{part}.{signal.name} of the next step"
+        self.block.memory_signals.append(replace(signal, name=field, doc=doc))
+        self.block.param_signals.append(replace(signal, name=f"{field}_0", default=values, doc=f"first {part}.{signal.name}"))
+        return field
+
+    def _scenario(self) -> Scenario | None:
+        """Combine the scenarios of the parts, if they have any."""
+        given = {part: block.scenario for part, block in self.parts.items() if block.scenario is not None}
+        if not given:
+            return None
+        block, parts = self.block, self.parts
+
+        def calls(rng: Any, steps: int) -> Iterator[tuple[str, dict[str, Any]]]:
+            streams = {part: _steps_of(scenario, rng) for part, scenario in given.items()}
+            yield "init", {}
+            for _ in range(steps):
+                values: dict[str, Any] = {}
+                drawn = {part: next(stream) for part, stream in streams.items()}
+                for signal in block.entries["step"].inputs:
+                    part = next(item for item in parts if signal.name.startswith(f"{item}_"))
+                    own = signal.name.removeprefix(f"{part}_")
+                    known = drawn.get(part, {})
+                    values[signal.name] = known[own] if own in known else _drawn(rng, signal)
+                yield "step", values
+
+        def memory(rng: Any) -> dict[str, Any]:
+            values = {signal.name: _drawn(rng, signal) for signal in block.memory_signals}
+            for part, inner in parts.items():
+                own = given[part].memory(rng) if part in given else {s.name: _drawn(rng, s) for s in inner.memory_signals_flat()}
+                values |= {f"{part}.{key}": value for key, value in own.items()}
+            return values
+
+        def scales(values: Mapping[str, Any]) -> dict[str, Any]:
+            answer: dict[str, Any] = {}
+            for part, scenario in given.items():
+                if scenario.scales is not None:
+                    own = {key.removeprefix(f"{part}."): item for key, item in values.items() if key.startswith(f"{part}.")}
+                    answer |= {f"{part}.{key}": item for key, item in scenario.scales(own).items()}
+            return answer
+
+        return Scenario(calls, memory, scales)
+
+
+def _steps_of(scenario: Scenario, rng: Any) -> Iterator[dict[str, Any]]:
+    while True:
+        for entry, inputs in scenario.calls(rng, 200):
+            if entry == "step":
+                yield inputs
+
+
+def _drawn(rng: Any, signal: Signal) -> Any:
+    if signal.kind is Kind.FLAG:
+        return True
+    if signal.kind is Kind.COUNT:
+        return 0
+    return rng.uniform(np.array(signal.low), np.array(signal.high))
+
+
+class ComposedOracle:
+    """The oracles of the parts, called in the same order along the same wires."""
+
+    def __init__(self, block: Block, order: list[str]):
+        self.block, self.order = block, order
+
+    def call(
+        self,
+        entry: str,
+        memory: Mapping[str, Any],
+        inputs: Mapping[str, Any],
+        params: Mapping[str, Any],
+        precision: type,
+    ) -> tuple[int, dict[str, Any], dict[str, Any]]:
+        """Run the statements of the composition on the parts' oracles."""
+        block = self.block
+        values: dict[Place, Any] = {Place("memory", key): value for key, value in memory.items()}
+        values |= {Place("in", key): value for key, value in inputs.items()}
+        values |= {Place("param", key): value for key, value in params.items()}
+        status = 0
+        if entry == "init":
+            for signal in block.param_signals:
+                given = np.asarray(params[signal.name])
+                if not np.all((given >= precision(signal.low)) & (given <= precision(signal.high))):
+                    return int(Status.BAD_PARAM), {}, {}
+        for statement in block.entries[entry].body:
+            if isinstance(statement, Call):
+                prefix = f"{statement.part}."
+                oracle = block.parts[statement.part].oracle
+                assert oracle is not None
+                own, after, outputs = oracle.call(
+                    statement.entry,
+                    {key.removeprefix(prefix): value for key, value in memory.items() if key.startswith(prefix)},
+                    {key: values[item] if isinstance(item, Place) else np.array([item]) for key, item in statement.arguments},
+                    {key.removeprefix(prefix): value for key, value in params.items() if key.startswith(prefix)},
+                    precision,
+                )
+                if own < 0:
+                    return own, {}, {}
+                status = max(status, own)
+                values |= {Place("next", prefix + key): value for key, value in after.items()}
+                values |= {Place("out", prefix + key): value for key, value in outputs.items()}
+            elif isinstance(statement, Assign) and isinstance(statement.source, Place):
+                values[statement.target] = np.atleast_1d(values[statement.source])
+        for signal in block.memory_signals:
+            given = np.asarray(values[Place("next", signal.name)])
+            if not np.all((given >= precision(signal.low)) & (given <= precision(signal.high))):
+                return int(Status.OVERFLOW), {}, {}
+        after = {place.name: value for place, value in values.items() if place.space == "next"}
+        return status, after, {place.name: value for place, value in values.items() if place.space == "out"}

@@ -1,0 +1,1078 @@
+"""Kalman filters as Blocks, derived from a Plant."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from ..reference import estimators as textbook
+from .block import Block, DerivativeCheck, Scenario
+from .discretisation import process_covariance, transition
+from .errors import ModelError
+from .expressions import equation_text, numpy_callable, tape
+from .kernels import SMALLEST_VARIANCE, Congruence, Decorrelate, InnovationVariance, Pattern, Pivots, RowUpdate, Scale
+from .names import check_name
+from .plant import HIGHEST_VARIANCE, LOWEST_VARIANCE, Noise, Plant, Sensor, State, Symbol, wrap
+from .program import (
+    AllOf,
+    AnyOf,
+    Assign,
+    AssignElement,
+    Attempt,
+    Call,
+    Compare,
+    CountUp,
+    Element,
+    Entry,
+    Evaluate,
+    HoldVariances,
+    IsSet,
+    Place,
+    Raise,
+    Refuse,
+    Restore,
+    Statement,
+    When,
+    packed_index,
+    packed_size,
+    unpack_symmetric,
+)
+from .signals import Kind, Signal, Status, power_of_unit, spread
+
+Array = NDArray[Any]
+Targets = tuple[tuple[Place, int], ...]
+
+COVARIANCE = Place("memory", "covariance")
+NEXT_COVARIANCE = Place("next", "covariance")
+
+
+def extended_kalman_filter(
+    plant: Plant,
+    *,
+    initial_variance: Mapping[Symbol | str, Any],
+    around: Mapping[Symbol | str, Any] | None = None,
+    gate: Mapping[str, float] | None = None,
+    reject_limit: int = 0,
+    inflation: float = 100.0,
+    variance_floor: Mapping[Symbol | str, float] | float | None = None,
+    variance_ceiling: Mapping[Symbol | str, float] | float | None = None,
+    float_bound: float = 0.05,
+    name: str | None = None,
+    doc: str = "",
+) -> Block:
+    """Return the extended Kalman filter of a discrete plant.
+
+    The covariance is kept as its packed upper triangle; a sensor's rows are taken one after another, which is the
+    batch update (Bierman 1977). Attitudes are estimated by their error, a small rotation (Markley 2003).
+
+    Parameters
+    ----------
+    plant : Plant
+        Discrete: ``plant.discretise(...)``, or a plant with ``dt=``.
+    initial_variance : dict
+        State (or its name) -> variance of its initial error, for every state; one number, or one per component.
+    around : dict, optional
+        State or input -> nominal value: default of the initial estimate, and where the test traces stay. Default 0.
+    gate : dict, optional
+        Sensor name -> largest NIS accepted (a run-time parameter; 0, the default, accepts all).
+    reject_limit : int
+        Readings gated in a row after which `step` recovers (a run-time parameter; 0 never does).
+    inflation : float
+        Factor on the covariance at a recovery (a run-time parameter).
+    variance_floor, variance_ceiling : float or dict, optional
+        Bounds of the variances in memory. Default 1e-20 and 1e9; 10 rad^2 above for an attitude, beyond which it is
+        unknown all around.
+    float_bound : float
+        Largest accepted difference of the single-precision C from double precision in one call, in sigma.
+    name : str, optional
+        Name of the block; default ``<plant>_ekf``.
+    doc : str
+        Its meaning; travels to the C header.
+
+    Returns
+    -------
+    Block
+        Entries `init`, `predict`, one ``update_<sensor>`` each, `step`, `inflate`.
+
+    Raises
+    ------
+    ModelError
+        If the plant is continuous, has no sensor, or an initial variance is missing.
+    """
+    options = _Options(
+        name or f"{plant.name}_ekf",
+        doc or f'Extended Kalman filter of the plant "{plant.name}"',
+        initial_variance,
+        around or {},
+        gate or {},
+        reject_limit,
+        inflation,
+        variance_floor,
+        variance_ceiling,
+        float_bound,
+    )
+    return _Builder(plant, options).build()
+
+
+def kalman_filter(
+    plant: Plant,
+    *,
+    initial_variance: Mapping[Symbol | str, Any],
+    at: Mapping[Symbol | str, Any] | None = None,
+    name: str | None = None,
+    doc: str = "",
+    **options: Any,
+) -> Block:
+    """Return the (time-varying) Kalman filter of a linear plant, or of a plant linearised at an operating point.
+
+    Parameters
+    ----------
+    plant : Plant
+        Discrete and linear; or any discrete plant without attitudes, if `at` is given.
+    initial_variance : dict
+        As for `extended_kalman_filter`.
+    at : dict or OperatingPoint, optional
+        State or input -> value at which the plant is linearised. The filter takes and returns absolute values.
+    name, doc, **options
+        As for `extended_kalman_filter`; default name ``<plant>_kf``.
+
+    Raises
+    ------
+    ModelError
+        If the plant is not linear and `at` is not given.
+    """
+    from .analysis import linearised_plant
+
+    linear = plant
+    if at is not None:
+        linear = linearised_plant(plant, at)
+        options.setdefault("around", at)
+    elif not is_linear(plant):
+        raise ModelError(
+            f"{plant.name}: a Kalman filter needs linear dynamics and sensors; give at= (an operating point) to linearise, or "
+            "use extended_kalman_filter"
+        )
+    text = doc or f'Kalman filter of the plant "{plant.name}"' + (" linearised at an operating point" if at else "")
+    return extended_kalman_filter(
+        linear, initial_variance=initial_variance, name=name or f"{plant.name}_kf", doc=text, **options
+    )
+
+
+def steady_state_kalman_filter(
+    plant: Plant,
+    *,
+    around: Mapping[Symbol | str, Any] | None = None,
+    name: str | None = None,
+    doc: str = "",
+    gain: Any = None,
+) -> Block:
+    """Return the Kalman filter with its steady-state gain: no covariance in memory.
+
+    The gain solves the discrete algebraic Riccati equation (Anderson & Moore 1979, ch. 4) at the default parameters. It
+    is a designed number: it lives in design.json, rounded to 9 digits, and is not a run-time parameter.
+
+    Parameters
+    ----------
+    plant : Plant
+        Discrete and linear, with a constant dt.
+    around : dict, optional
+        State or input -> nominal value: default of the initial estimate, and where the test traces stay.
+    name, doc : str, optional
+        Default name ``<plant>_sskf``.
+    gain : array (n, m), optional
+        The gain to use instead of designing one.
+
+    Returns
+    -------
+    Block
+        Entries `init`, `predict`, `update` (all readings at once), and `step` (predict, then update if has_readings).
+
+    Raises
+    ------
+    ModelError
+        If the plant is not linear, dt is an input, or no stabilising gain exists.
+    """
+    from .steady_state import build
+
+    return build(plant, around or {}, name or f"{plant.name}_sskf", doc, gain)
+
+
+def is_linear(plant: Plant) -> bool:
+    """Whether dynamics and sensors are affine in states and inputs."""
+    if plant.has_attitude:
+        return False
+    point = ca.vertcat(plant.x, plant.u)
+    source = plant.discretisation.continuous if plant.discretisation else plant
+    stacked = ca.vertcat(source.dynamics_expression(), *[sensor.expression for sensor in plant.sensors])
+    jacobian = ca.jacobian(plant.without_noise(stacked), point)
+    gains = ca.jacobian(stacked, plant.w) if plant.noises else ca.SX(0, 0)
+    return not ca.depends_on(ca.vertcat(ca.vec(jacobian), ca.vec(gains)), point)
+
+
+@dataclass(frozen=True)
+class _Options:
+    name: str
+    doc: str
+    initial_variance: Mapping[Symbol | str, Any]
+    around: Mapping[Symbol | str, Any]
+    gate: Mapping[str, float]
+    reject_limit: int
+    inflation: float
+    floor: Mapping[Symbol | str, float] | float | None
+    ceiling: Mapping[Symbol | str, float] | float | None
+    float_bound: float
+
+
+def _name_of(key: Symbol | str) -> str:
+    return key if isinstance(key, str) else key.signal.name
+
+
+def _upper(matrix: ca.SX) -> tuple[Pattern, ca.SX]:
+    """Return pattern and values of the upper triangle of a symmetric expression, row by row, exact zeros left out."""
+    sparse = ca.sparsify(matrix)
+    pattern = tuple(
+        (i, j)
+        for i in range(sparse.shape[0])
+        for j in range(i, sparse.shape[1])
+        if sparse.sparsity().has_nz(i, j)
+    )
+    return pattern, ca.vertcat(ca.SX(0, 1), *[sparse[i, j] for i, j in pattern])
+
+
+def _rowwise(matrix: ca.SX) -> tuple[Pattern, ca.SX]:
+    """Return pattern and values of a sparse expression, row by row."""
+    sparse = ca.sparsify(matrix)
+    pattern = tuple(sorted(zip(sparse.sparsity().row(), sparse.sparsity().get_col(), strict=True)))
+    return pattern, ca.vertcat(ca.SX(0, 1), *[sparse[i, j] for i, j in pattern])
+
+
+@dataclass(frozen=True)
+class _Measurement:
+    """What a sensor's update evaluates."""
+
+    sensor: Sensor
+    inputs: tuple[Symbol, ...]
+    h: ca.SX
+    residual: ca.SX
+    H: ca.SX
+    R: ca.SX
+
+
+class _Builder:
+    """Derives everything, then assembles the Block."""
+
+    def __init__(self, plant: Plant, options: _Options):
+        self.plant, self.options = plant, options
+        name = options.name
+        if not plant.is_discrete:
+            raise ModelError(
+                f"{plant.name}: an estimator runs in discrete time, and this plant is continuous; give it "
+                f"{plant.name}.discretise('rk4', dt=...)"
+            )
+        plant.dynamics_expression()
+        if not plant.sensors:
+            raise ModelError(f"{plant.name}: an estimator needs a sensor, and this plant has none; add sensor(...)")
+        self.n = plant.error_size
+        self.block = Block(name, doc=options.doc)
+        self.floor = self._per_error(options.floor, "variance_floor", 1e-30, 1e30)
+        self.ceiling = self._per_error(options.ceiling, "variance_ceiling", 1e-30, 1e15)
+        if any(low >= high for low, high in zip(self.floor, self.ceiling, strict=True)):
+            raise ModelError(f"{name}: a variance floor is not below its ceiling; lower variance_floor")
+        self.noise_symbols: list[tuple[Signal, ca.SX]] = []
+        self._declare()
+
+    # -- what the user said -------------------------------------------------------------------------------------------
+
+    def _per_error(self, given: Any, what: str, low: float, high: float) -> tuple[float, ...]:
+        """Return one number for each component of the error."""
+        table = {_name_of(key): value for key, value in given.items()} if isinstance(given, Mapping) else None
+        unknown = set(table or {}) - {state.signal.name for state in self.plant.states}
+        if unknown:
+            raise ModelError(f"{self.options.name}: {what} names {sorted(unknown)}, which are no states")
+        answer: list[float] = []
+        for state in self.plant.states:
+            size = state.error_at.stop - state.error_at.start
+            if table is None and given is not None:
+                value: Any = given
+            elif table is not None and state.signal.name in table:
+                value = table[state.signal.name]
+            elif what == "initial_variance":
+                raise ModelError(
+                    f"{self.options.name}: no initial variance for the state {state.signal.name!r}; add it to initial_variance"
+                )
+            else:
+                value = 1e-20 if what == "variance_floor" else 10.0 if state.attitude else 1e9
+            try:
+                items = spread(value, size)
+            except (TypeError, ValueError):
+                items = ()
+            if len(items) != size or not all(low <= item <= high for item in items):
+                raise ModelError(
+                    f"{self.options.name}: {what} of {state.signal.name!r} is {value!r}; give {size} number(s) within "
+                    f"{low:g} .. {high:g}"
+                )
+            answer += items
+        return tuple(answer)
+
+    def _nominal(self) -> tuple[Array, Array]:
+        """Return nominal state and input vectors."""
+        given = {_name_of(key): value for key, value in dict(self.options.around).items()}
+        known = [*[state.symbol for state in self.plant.states], *self.plant.inputs]
+        unknown = set(given) - {symbol.signal.name for symbol in known}
+        if unknown:
+            raise ModelError(f"{self.options.name}: around= names {sorted(unknown)}, which are neither states nor inputs")
+        vectors = []
+        for symbols in ([state.symbol for state in self.plant.states], self.plant.inputs):
+            parts: list[float] = []
+            for symbol in symbols:
+                signal = symbol.signal
+                attitude = any(state.symbol is symbol and state.attitude for state in self.plant.states)
+                default = (1.0, 0.0, 0.0, 0.0) if attitude else np.clip(0.0, signal.low, signal.high)
+                value = np.asarray(spread(given.get(signal.name, default), signal.size))
+                if value.size != signal.size or np.any(value < signal.low) or np.any(value > signal.high):
+                    raise ModelError(
+                        f"{self.options.name}: around= gives {value.tolist()} for {signal.name!r}, outside its range or of "
+                        f"another size; its range is {signal.low[0]:g} .. {signal.high[0]:g}"
+                    )
+                parts += value.tolist()
+            vectors.append(np.array(parts))
+        return vectors[0], vectors[1]
+
+    # -- declarations -------------------------------------------------------------------------------------------------
+
+    def _declare(self) -> None:
+        plant, block, options = self.plant, self.block, self.options
+        block.param_signals += [symbol.signal for symbol in plant.parameters]
+        for noise in plant.process_noises:
+            self._declare_noise(noise)
+        for state in plant.states:
+            if state.signal.name in plant.step_variances:
+                values = plant.step_variances[state.signal.name]
+                self._noise_parameter(
+                    f"variance_step_{state.signal.name}",
+                    values,
+                    power_of_unit("rad" if state.attitude else state.signal.unit, 2),
+                    f"noise per step of {state.signal.name}",
+                    0.0,
+                )
+        for sensor in plant.sensors:
+            self._declare_sensor(sensor)
+        unknown = set(options.gate) - {sensor.signal.name for sensor in plant.sensors}
+        if unknown:
+            raise ModelError(f"{options.name}: gate= names {sorted(unknown)}, which are no sensors")
+        if not isinstance(options.reject_limit, int) or not 0 <= options.reject_limit < 2**32:
+            raise ModelError(f"{options.name}: reject_limit is {options.reject_limit!r}; give a whole number, 0 for never")
+        if not 1.0 <= options.inflation <= 1e6:
+            raise ModelError(f"{options.name}: inflation is {options.inflation!r}; give a factor from 1 to 1e6")
+        block.param_signals += [
+            Signal(
+                "reject_limit",
+                low=(0.0,),
+                high=(2.0**32 - 1,),
+                kind=Kind.COUNT,
+                default=(float(options.reject_limit),),
+                doc="readings gated in a row after which step recovers; 0: never",
+            ),
+            Signal(
+                "inflation", low=(1.0,), high=(1e6,), default=(float(options.inflation),), doc="factor on P at a recovery"
+            ),
+        ]
+        self._declare_memory()
+
+    def _declare_noise(self, noise: Noise) -> None:
+        kind = "density" if noise.is_density else "variance"
+        unit = power_of_unit(noise.signal.unit, 2)
+        if unit and noise.is_density:
+            unit += "/Hz"
+        values = _pack(noise.strength) if noise.full else np.diag(noise.strength)
+        doc = noise.signal.doc or f"noise {noise.signal.name}"
+        if noise.full:
+            doc += " (upper triangle by rows)"
+        self._noise_parameter(f"{kind}_{noise.signal.name}", tuple(values), unit, doc, 0.0, full=noise.full)
+
+    def _declare_sensor(self, sensor: Sensor) -> None:
+        name = sensor.signal.name
+        for noise in self.plant.sensor_noises(sensor):
+            if all(signal.name != f"variance_{noise.signal.name}" for signal, _ in self.noise_symbols):
+                self._declare_noise(noise)
+        if sensor.strength is not None:
+            values = _pack(sensor.strength) if sensor.full else np.diag(sensor.strength)
+            doc = f"noise of {name}" + (" (upper triangle by rows)" if sensor.full else "")
+            unit = power_of_unit(sensor.signal.unit, 2)
+            self._noise_parameter(f"variance_{name}", tuple(values), unit, doc, LOWEST_VARIANCE, full=sensor.full)
+        gate = float(self.options.gate.get(name, 0.0))
+        if not 0.0 <= gate <= 1e6:
+            raise ModelError(f"{self.options.name}: the gate of {name!r} is {gate:g}; give a NIS from 0 (no gate) to 1e6")
+        doc = f"largest accepted NIS of {name}; 0: no gate"
+        self.block.param_signals.append(Signal(f"gate_{name}", low=(0.0,), high=(1e6,), default=(gate,), doc=doc))
+
+    def _noise_parameter(
+        self, name: str, values: tuple[float, ...], unit: str, doc: str, low: float, *, full: bool = False
+    ) -> None:
+        size = len(values)
+        lows = (low,) * size
+        if full:
+            count = int((math.isqrt(8 * size + 1) - 1) // 2)
+            lows = tuple(low if i == j else -HIGHEST_VARIANCE for i in range(count) for j in range(i, count))
+        signal = Signal(
+            name, size, unit, lows, (HIGHEST_VARIANCE,) * size, doc, default=tuple(float(item) for item in values)
+        )
+        self.block.param_signals.append(signal)
+        self.noise_symbols.append((signal, ca.SX.sym(name, size)))
+
+    def _declare_memory(self) -> None:
+        plant, block = self.plant, self.block
+        x0, _ = self._nominal()
+        variances = self._per_error(self.options.initial_variance, "initial_variance", LOWEST_VARIANCE, HIGHEST_VARIANCE)
+        for state in plant.states:
+            signal = state.signal
+            doc = signal.doc or ("attitude, body to world (w, x, y, z)" if state.attitude else "")
+            suffix = " (wrapped)" if signal.angle else ""
+            block.memory_signals.append(Signal(**{**signal.__dict__, "doc": doc + suffix}))
+            low, high = ((-math.pi,), (math.pi,)) if signal.angle else (signal.low, signal.high)
+            low, high = low * (signal.size // len(low)), high * (signal.size // len(high))
+            default = tuple(float(item) for item in x0[state.at])
+            block.param_signals.append(
+                Signal(f"{signal.name}_0", signal.size, signal.unit, low, high, f"initial {signal.name}", default=default)
+            )
+        for state in plant.states:
+            size = state.error_at.stop - state.error_at.start
+            unit = power_of_unit("rad" if state.attitude else state.signal.unit, 2)
+            doc = f"variance of the error of {state.signal.name}_0"
+            low, high = (LOWEST_VARIANCE,) * size, (HIGHEST_VARIANCE,) * size
+            default = variances[state.error_at]
+            block.param_signals.append(
+                Signal(f"variance_{state.signal.name}_0", size, unit, low, high, doc, default=default)
+            )
+        lows, highs = [], []
+        for i in range(self.n):
+            for j in range(i, self.n):
+                top = math.sqrt(self.ceiling[i] * self.ceiling[j])
+                lows.append(self.floor[i] if i == j else -top)
+                highs.append(self.ceiling[i] if i == j else top)
+        doc = "covariance of the error, upper triangle by rows"
+        block.memory_signals.append(Signal("covariance", packed_size(self.n), "", tuple(lows), tuple(highs), doc))
+        for sensor in plant.sensors:
+            name = f"rejected_{sensor.signal.name}"
+            doc = f"readings of {sensor.signal.name} gated in a row; stays at its largest value"
+            block.memory_signals.append(Signal(name, kind=Kind.COUNT, low=(0.0,), high=(2.0**32 - 1,), doc=doc))
+
+    # -- derivation ---------------------------------------------------------------------------------------------------
+
+    def _strength(self, noises: list[Noise]) -> ca.SX:
+        """Return the matrix of noise parameters, as symbols."""
+        table = {signal.name: symbol for signal, symbol in self.noise_symbols}
+        blocks = []
+        for noise in noises:
+            symbol = table[f"{'density' if noise.is_density else 'variance'}_{noise.signal.name}"]
+            blocks.append(_unpack(symbol, noise.signal.size) if noise.full else ca.diag(symbol))
+        return ca.diagcat(*blocks) if blocks else ca.SX(0, 0)
+
+    def process_noise(self) -> ca.SX:
+        """Return Q (n, n) as an expression of state, parameters and noise parameters."""
+        plant = self.plant
+        total = ca.SX(self.n, self.n)
+        if plant.process_noises:
+            total = process_covariance(plant, self._strength(plant.process_noises))
+        table = {signal.name: symbol for signal, symbol in self.noise_symbols}
+        for state in plant.states:
+            if state.signal.name in plant.step_variances:
+                place = state.error_at
+                total[place, place] += ca.diag(table[f"variance_step_{state.signal.name}"])
+        return total
+
+    def measurement(self, sensor: Sensor) -> _Measurement:
+        """Return residual, H and R of a sensor."""
+        plant = self.plant
+        noisy = plant.folded(sensor.expression)
+        h = plant.without_noise(noisy)
+        residual = ca.SX(sensor.measurement) - h
+        if sensor.signal.angle:
+            residual = wrap(residual)
+        H = ca.jacobian(h, plant.x) @ plant.retraction_jacobian()
+        size = sensor.signal.size
+        table = {signal.name: symbol for signal, symbol in self.noise_symbols}
+        R = ca.SX(size, size)
+        if sensor.strength is not None:
+            symbol = table[f"variance_{sensor.signal.name}"]
+            R += _unpack(symbol, size) if sensor.full else ca.diag(symbol)
+        if sensor.variance_expression is not None:
+            R += plant.without_noise(plant.folded(sensor.variance_expression))
+        noises = plant.sensor_noises(sensor)
+        if noises:
+            stacked = ca.vertcat(*[noise.symbol for noise in noises])
+            N = plant.without_noise(ca.jacobian(noisy, stacked))
+            R += N @ self._strength(noises) @ N.T
+        if any(not R.sparsity().has_nz(i, i) for i in range(size)):
+            raise ModelError(
+                f"{plant.name}: a row of the sensor {sensor.signal.name!r} has no noise at all; give variance=, or let a noise "
+                "enter each row"
+            )
+        everything = ca.vertcat(h, ca.vec(ca.densify(R)))
+        inputs = tuple(symbol for symbol in plant.inputs if ca.depends_on(everything, symbol))
+        return _Measurement(sensor, inputs, h, residual, H, R)
+
+    # -- assembly -----------------------------------------------------------------------------------------------------
+
+    def _state_reads(self, space: str = "memory") -> tuple[list[ca.SX], list[tuple[tuple[Place, int], ...]]]:
+        symbols = [ca.SX(state.symbol) for state in self.plant.states]
+        places: list[Targets] = [
+            ((Place(space, state.signal.name), state.signal.size),)  # type: ignore[arg-type]
+            for state in self.plant.states
+        ]
+        return symbols, places
+
+    def _param_reads(self) -> tuple[list[ca.SX], list[Targets]]:
+        pairs = [(symbol.signal, ca.SX(symbol)) for symbol in self.plant.parameters] + self.noise_symbols
+        return [symbol for _, symbol in pairs], [((Place("param", signal.name), signal.size),) for signal, _ in pairs]
+
+    def _input_reads(self, symbols: tuple[Symbol, ...]) -> tuple[list[ca.SX], list[Targets]]:
+        return (
+            [ca.SX(symbol) for symbol in symbols],
+            [((Place("in", symbol.signal.name), symbol.signal.size),) for symbol in symbols],
+        )
+
+    def _evaluate(
+        self,
+        name: str,
+        reads: list[tuple[list[ca.SX], list[Targets]]],
+        outputs: list[tuple[ca.SX, Targets, tuple[str, ...]]],
+        comment: list[str],
+    ) -> Evaluate:
+        arguments = [symbol for symbols, _ in reads for symbol in symbols]
+        places = [place for _, group in reads for place in group]
+        function = ca.Function(f"{self.block.name}_{name}", arguments, [ca.densify(value) for value, _, _ in outputs])
+        if function.get_free():
+            raise ModelError(f"{self.plant.name}: {name} uses {function.get_free()}, which it does not take")
+        return Evaluate(
+            function,
+            tuple(places),
+            tuple(targets for _, targets, _ in outputs),
+            tuple(names for _, _, names in outputs),
+            tuple(comment),
+        )
+
+    def _next_states(self) -> tuple[Targets, tuple[str, ...]]:
+        targets = tuple((Place("next", state.signal.name), state.signal.size) for state in self.plant.states)
+        names = tuple(
+            f"next_{state.signal.name}" + (f"_{i}" if state.signal.size > 1 else "")
+            for state in self.plant.states
+            for i in range(state.signal.size)
+        )
+        return targets, names
+
+    def _hold(self) -> HoldVariances:
+        return HoldVariances(NEXT_COVARIANCE, self.n, self.floor, self.ceiling)
+
+    def _judge(self, *, states: bool = True) -> Refuse:
+        names = [state.signal.name for state in self.plant.states] if states else []
+        return Refuse(Status.OVERFLOW, self.block.judge_memory([*names, "covariance"], [self._hold()]))
+
+    def _init(self) -> Entry:
+        plant = self.plant
+        body: list[Statement] = []
+        for noise, what in self._full_matrices():
+            size = int((math.isqrt(8 * noise.size + 1) - 1) // 2)
+            body += _definite_or_refuse(Place("param", noise.name), size, what)
+        for state in plant.states:
+            name = state.signal.name
+            if state.attitude:
+                symbol = ca.SX.sym("q", 4)
+                square = ca.dot(symbol, symbol)
+                function = ca.Function(
+                    f"{self.block.name}_normalise_{name}", [symbol], [symbol / ca.sqrt(square + 1e-20), square]
+                )
+                at = Place("local", f"square_{name}")
+                body.append(
+                    Evaluate(
+                        function,
+                        (((Place("param", f"{name}_0"), 4),),),
+                        (((Place("next", name), 4),), ((at, 1),)),
+                        (tuple(f"next_{name}_{i}" for i in range(4)), (at.name,)),
+                        (f"{name} = {name}_0 scaled to unit length, from which it may be 1 % away",),
+                    )
+                )
+                near = AllOf((Compare(Element(at), ">=", 0.98), Compare(Element(at), "<=", 1.02)))
+                body.append(Refuse(Status.BAD_PARAM, near))
+            else:
+                body.append(Assign(Place("next", name), Place("param", f"{name}_0"), state.signal.size))
+        body.append(Assign(NEXT_COVARIANCE, 0.0, packed_size(self.n)))
+        for state in plant.states:
+            size = state.error_at.stop - state.error_at.start
+            for i in range(size):
+                k = state.error_at.start + i
+                body.append(
+                    AssignElement(
+                        Element(NEXT_COVARIANCE, packed_index(self.n, k, k)),
+                        Element(Place("param", f"variance_{state.signal.name}_0"), i),
+                    )
+                )
+        for sensor in plant.sensors:
+            body.append(Assign(Place("next", f"rejected_{sensor.signal.name}"), 0.0, 1))
+        body.append(self._hold())
+        doc = "Start (or start again) from the initial estimate in the parameters; every parameter is checked here."
+        return Entry("init", (), (), tuple(body), doc, checks_params=True)
+
+    def _full_matrices(self) -> list[tuple[Signal, str]]:
+        full = {f"variance_{sensor.signal.name}" for sensor in self.plant.sensors if sensor.full}
+        full |= {
+            f"{'density' if noise.is_density else 'variance'}_{noise.signal.name}"
+            for noise in self.plant.noises
+            if noise.full
+        }
+        return [(signal, signal.name) for signal, _ in self.noise_symbols if signal.name in full]
+
+    def _predict(self) -> Entry:
+        plant = self.plant
+        following, F = transition(plant)
+        Q = self.process_noise()
+        f_pattern, f_values = _rowwise(F)
+        q_pattern, q_values = _upper(Q)
+        f_names = tuple(f"f_{i}_{j}" for i, j in f_pattern)
+        q_names = tuple(f"q_{i}_{j}" for i, j in q_pattern)
+        targets, names = self._next_states()
+        dt = [] if plant.dt_symbol is None or isinstance(plant.dt, float) else [plant.dt_symbol]
+        reads = [
+            self._state_reads(),
+            self._input_reads(tuple(plant.inputs)),
+            self._param_reads(),
+            (dt, [((Place("in", "dt"), 1),)] if dt else []),
+        ]
+        f_place, q_place = Place("local", "f"), Place("local", "q")
+        outputs = [
+            (following, targets, names),
+            (f_values, ((f_place, len(f_pattern)),), f_names),
+            (q_values, ((q_place, len(q_pattern)),), q_names),
+        ]
+        made = plant.discretisation
+        how = "x = f(x, u)" if made is None else f"x, F = dx/dx and Q over one step, by {made.method}"
+        if made is not None and made.substeps > 1:
+            how += f" in {made.substeps} substeps"
+        body: list[Statement] = [
+            self._evaluate("predict", reads, outputs, [how, *dynamics_equations(plant)]),
+            Congruence(
+                self.n, f_place, f_pattern, COVARIANCE, q_place, q_pattern, NEXT_COVARIANCE, f_names, q_names
+            ),
+            self._hold(),
+            self._judge(),
+        ]
+        inputs = [symbol.signal for symbol in plant.inputs]
+        if dt:
+            assert isinstance(plant.dt, tuple)
+            low, high = plant.dt
+            inputs.append(Signal("dt", 1, "s", (low,), (high,), "time since the last predict"))
+        doc = "Move the estimate one step ahead."
+        return Entry("predict", tuple(inputs), (), tuple(body), doc)
+
+    def _update(self, made: _Measurement) -> Entry:
+        sensor, n = made.sensor, self.n
+        name, m = sensor.signal.name, sensor.signal.size
+        h_pattern, h_values = _rowwise(made.H)
+        r_pattern, r_values = _upper(made.R)
+        diagonal = all(i == j for i, j in r_pattern)
+        h_names = tuple(f"h_{i}_{j}" for i, j in h_pattern)
+        r_names = tuple(f"r_{i}" if diagonal else f"r_{i}_{j}" for i, j in r_pattern)
+        e_names = tuple(f"residual_{i}" for i in range(m)) if m > 1 else ("residual",)
+        residual, h, r = Place("local", "residual"), Place("local", "h"), Place("local", "r")
+        reads = [
+            self._state_reads(),
+            ([ca.SX(sensor.measurement)], [((Place("in", name), m),)]),
+            self._input_reads(made.inputs),
+            self._param_reads(),
+        ]
+        outputs = [
+            (made.residual, ((residual, m),), e_names),
+            (h_values, ((h, len(h_pattern)),), h_names),
+            (r_values, ((r, len(r_pattern)),), r_names),
+        ]
+        pairs = self.plant.symbol_names()
+        expected = equation_text(sensor.expression, pairs, 200)
+        wrapped = ", wrapped" if sensor.signal.angle else ""
+        tail = lambda i: f"[{i}]" if m > 1 else ""  # noqa: E731
+        comment = [f"residual{tail(i)} = {name}{tail(i)} - ({text}){wrapped}" for i, text in enumerate(expected)]
+        body: list[Statement] = [
+            self._evaluate(f"measure_{name}", reads, outputs, comment),
+            InnovationVariance(
+                n, m, h, h_pattern, r, r_pattern, COVARIANCE, Place("out", "variance"), h_names, r_names
+            ),
+            Assign(Place("out", "innovation"), residual, m),
+        ]
+        if not diagonal:
+            new = Decorrelate(
+                m, n, residual, h, h_pattern, r, r_pattern, Place("local", "white_residual"), Place("local", "white_h"),
+                Place("local", "white_r"), h_names, r_names, e_names,
+            )  # fmt: skip
+            body.append(new)
+            body.append(Refuse(Status.NOT_POSITIVE, _all_above(new.new_r, m, SMALLEST_VARIANCE)))
+            residual, h, r, h_pattern = new.new_residual, new.new_h, new.new_r, new.new_pattern
+            h_names = tuple(f"wh_{i}_{j}" for i, j in h_pattern)
+            r_names = tuple(f"d_{i}" for i in range(m))
+            e_names = tuple(f"we_{i}" for i in range(m))
+        for row in range(m):
+            columns = [k for k, (i, _) in enumerate(h_pattern) if i == row]
+            single = diagonal and len(columns) == 1 and _is_one(h_values[columns[0]])
+            source = COVARIANCE if row == 0 else NEXT_COVARIANCE
+            text = f"row {row}: " if m > 1 else ""
+            tail_text = "; the measured row as r K" if single else ""
+            body.append(
+                RowUpdate(
+                    n, row, residual, m, h, h_pattern, r, m, source, NEXT_COVARIANCE, single, h_names, r_names, e_names,
+                    (f"{text}d = d + K e, P = P - K s K'{tail_text}",),
+                )  # fmt: skip
+            )
+        body.append(
+            Refuse(Status.NOT_POSITIVE, _all_above(Place("local", "row_variance"), m, SMALLEST_VARIANCE))
+        )
+        body.append(Assign(Place("out", "nis"), Place("local", "nis"), 1))
+        gate = Element(Place("in", "gate"))
+        accepted = AnyOf((Compare(gate, "<=", 0.0), Compare(Element(Place("local", "nis")), "<=", gate)))
+        body.append(
+            When(
+                accepted,
+                (*self._correct(name), Assign(Place("next", f"rejected_{name}"), 0.0, 1), self._hold(), self._judge()),
+                (Restore(), CountUp(Place("next", f"rejected_{name}")), Raise(Status.GATED)),
+                "accepted?",
+            )
+        )
+        gate_signal = Signal("gate", low=(0.0,), high=(1e6,), doc="largest accepted NIS; 0: no gate")
+        unit = sensor.signal.unit
+        outputs_of = (
+            Signal(
+                "innovation", m, unit, (-1e30,) * m, (1e30,) * m, "measured minus expected" + wrapped, angle=sensor.signal.angle
+            ),
+            Signal("variance", m, power_of_unit(unit, 2), doc="of the innovation", low=(0.0,) * m, high=(1e30,) * m),
+            Signal("nis", doc="normalised innovation squared, of the whole reading", low=(0.0,), high=(1e30,)),
+        )
+        reading = Signal(**{**sensor.signal.__dict__, "doc": sensor.doc or "reading"})
+        return Entry(
+            f"update_{name}",
+            (reading, *[symbol.signal for symbol in made.inputs]),
+            outputs_of,
+            tuple(body),
+            f"Correct the estimate with one reading of {name}.",
+            hidden=((gate_signal, Place("param", f"gate_{name}")),),
+        )
+
+    def _correct(self, sensor: str) -> list[Statement]:
+        """Apply the correction d to the state, and turn P into the corrected body frame of an attitude."""
+        plant = self.plant
+        d = ca.SX.sym("d", self.n)
+        targets, names = self._next_states()
+        symbols, places = self._state_reads()
+        moved = plant.wrapped(plant.retract(plant.x, d))
+        body: list[Statement] = []
+        gains = []
+        for state in plant.states:
+            size = state.error_at.stop - state.error_at.start
+            gains.append(ca.SX.eye(size) - 0.5 * ca.skew(d[state.error_at]) if state.attitude else ca.SX.eye(size))
+        pattern, values = _rowwise(ca.diagcat(*gains))
+        reset = Place("local", "g")
+        g_names = tuple(f"g_{i}_{j}" for i, j in pattern)
+        outputs = [(moved, targets, names)]
+        if plant.has_attitude:
+            outputs.append((values, ((reset, len(pattern)),), g_names))
+        comment = ["x = x + d"]
+        if plant.has_attitude:
+            comment = ["x = x + d, attitudes turned by exp(d); the error is now counted from there: P = G P G'"]
+        reads = [(symbols, places), ([d], [((Place("local", "delta"), self.n),)])]
+        body.append(self._evaluate(f"correct_{sensor}", reads, outputs, comment))
+        if plant.has_attitude:
+            body.append(
+                Congruence(
+                    self.n, reset, pattern, NEXT_COVARIANCE, None, (), NEXT_COVARIANCE, g_names,
+                    comment=("P = G P G', G = I - [d]x / 2 for an attitude",),
+                )  # fmt: skip
+            )
+        return body
+
+    def _inflate(self) -> Entry:
+        size = packed_size(self.n)
+        factor = Signal("factor", low=(1.0,), high=(1e6,), doc="factor on the covariance")
+        body = (
+            Scale(size, Place("in", "factor"), COVARIANCE, NEXT_COVARIANCE, ("P = factor P",), self.n),
+            self._hold(),
+            self._judge(states=False),
+        )
+        doc = "Multiply the covariance by a factor and leave the estimate: after a disturbance the model does not know."
+        return Entry("inflate", (factor,), (), body, doc)
+
+    def _step(self, predict: Entry, updates: list[tuple[Sensor, Entry]]) -> Entry:
+        inputs = list(predict.inputs)
+        outputs: list[Signal] = []
+        arguments = tuple((signal.name, Place("in", signal.name)) for signal in predict.inputs)
+        body: list[Statement] = [Call("predict", arguments)]
+        for sensor, entry in updates:
+            name = sensor.signal.name
+            reading = entry.inputs[0]
+            flag = Signal(f"has_{name}", kind=Kind.FLAG, low=(0.0,), high=(1.0,), doc=f"whether there is a reading of {name}")
+            inputs += [flag, reading]
+            group = Signal(name, kind=Kind.GROUP, members=entry.outputs, doc=f"what update_{name} reported, else zeros")
+            status = Signal(f"status_{name}", kind=Kind.STATUS, doc=f"status of {name} itself")
+            outputs += [status, group]
+            given = tuple((signal.name, Place("in", signal.name)) for signal in entry.inputs)
+            zeros = tuple(
+                Assign(Place("out", f"{name}.{signal.name}"), 0.0, signal.size) for signal in entry.outputs
+            )
+            report = Place("out", f"status_{name}")
+            skipped = (*zeros, Raise(Status.SKIPPED))
+            limit = Element(Place("param", "reject_limit"))
+            count = Element(Place("next", f"rejected_{name}"))
+            normal = Attempt((Call(entry.name, given, Place("out", name)),), report, (), skipped)
+            recovery = Attempt(
+                (
+                    Call("inflate", (("factor", Place("param", "inflation")),)),
+                    Call(entry.name, (*given, ("gate", 0.0)), Place("out", name)),
+                ),
+                report,
+                (Raise(Status.RECOVERED),),
+                skipped,
+            )
+            due = AllOf((Compare(limit, ">", 0.0), Compare(count, ">=", limit)))
+            body.append(
+                When(
+                    IsSet(Element(Place("in", f"has_{name}"))),
+                    (When(due, (recovery,), (normal,), f"{name} gated too often in a row: trust it once"),),
+                    (*zeros, Assign(report, 0.0, 1)),
+                    name,
+                )
+            )
+        doc = "Predict, then every sensor that has a reading, in this order; a refused sensor is skipped."
+        return Entry("step", tuple(inputs), tuple(outputs), tuple(body), doc)
+
+    def build(self) -> Block:
+        """Derive and assemble."""
+        plant, block = self.plant, self.block
+        measurements = [self.measurement(sensor) for sensor in plant.sensors]
+        predict = self._predict()
+        updates = [(made.sensor, self._update(made)) for made in measurements]
+        entries = [self._init(), predict, *[entry for _, entry in updates], self._step(predict, updates), self._inflate()]
+        block.entries = {entry.name: entry for entry in entries}
+        block.equations = plant_equations(plant)
+        block.notes = self._notes()
+        block.source_hash = plant.fingerprint()
+        block.float_bound = self.options.float_bound
+        for noise in plant.noises:
+            check_name("noise", noise.signal.name, block.name)
+        block.check()
+        model = self._textbook_model(measurements)
+        block.oracle = textbook.KalmanOracle(model)
+        block.scenario = self._scenario(model)
+        block.derivative_checks = self._derivative_checks(model, block)
+        return block
+
+    def _notes(self) -> list[str]:
+        made = self.plant.discretisation
+        lines = []
+        if made is not None:
+            lines.append(f"Discretised by {made.method}" + (f" in {made.substeps} substeps." if made.substeps > 1 else "."))
+        if any(noise.is_density for noise in self.plant.process_noises):
+            lines.append("Noise densities are integrated over the step.")
+        lines.append("Covariance packed (upper triangle by rows); one scalar update for each sensor row.")
+        return lines
+
+    # -- independence -------------------------------------------------------------------------------------------------
+
+    def _textbook_model(self, measurements: list[_Measurement]) -> textbook.Model:
+        """Lower f and h, never a derivative of ours, to NumPy callables."""
+        plant = self.plant
+        made = plant.discretisation
+        source = made.continuous if made else plant
+        x, u, p = plant.x, plant.u, plant.p
+        process = ca.vertcat(ca.SX(0, 1), *[noise.symbol for noise in plant.process_noises])
+        rates = plant.folded(source.dynamics_expression())
+        rest = [noise.symbol for noise in plant.noises if not ca.depends_on(process, noise.symbol)]
+        if rest:
+            rates = ca.substitute(rates, ca.vertcat(*rest), ca.DM.zeros(ca.vertcat(*rest).numel()))
+        dynamics = numpy_callable(ca.Function("dynamics", [x, u, p, process], [ca.densify(rates)]))
+        sensors = []
+        for item in measurements:
+            sensor = item.sensor
+            noises = plant.sensor_noises(sensor)
+            v = ca.vertcat(ca.SX(0, 1), *[noise.symbol for noise in noises])
+            z = ca.SX(sensor.measurement)
+            h = plant.folded(sensor.expression)
+            extra = sensor.variance_expression
+            extra = ca.SX(sensor.signal.size, sensor.signal.size) if extra is None else plant.folded(extra)
+            sensors.append(
+                textbook.SensorModel(
+                    name=sensor.signal.name,
+                    size=sensor.signal.size,
+                    angle=sensor.signal.angle,
+                    low=np.array(sensor.signal.low),
+                    high=np.array(sensor.signal.high),
+                    inputs=tuple(symbol.signal.name for symbol in item.inputs),
+                    measure=numpy_callable(ca.Function("measure", [x, u, p, v], [ca.densify(h)])),
+                    noises=tuple(_noise_description(noise) for noise in noises),
+                    variance=f"variance_{sensor.signal.name}" if sensor.strength is not None else "",
+                    full=sensor.full,
+                    extra_variance=numpy_callable(
+                        ca.Function("extra", [x, z, u, p], [ca.densify(plant.without_noise(extra))])
+                    ),
+                )
+            )
+        return textbook.Model(
+            states=tuple(
+                textbook.StateModel(
+                    state.signal.name,
+                    state.signal.size,
+                    "attitude" if state.attitude else "angle" if state.signal.angle else "plain",
+                    np.array(state.signal.low),
+                    np.array(state.signal.high),
+                )
+                for state in plant.states
+            ),
+            inputs=tuple(
+                textbook.InputModel(s.signal.name, s.signal.size, np.array(s.signal.low), np.array(s.signal.high))
+                for s in plant.inputs
+            ),
+            params=tuple(
+                textbook.InputModel(s.name, s.size, np.array(s.low), np.array(s.high))
+                for s in self.block.param_signals
+                if s.kind is Kind.REAL
+            ),
+            plant_params=tuple(symbol.signal.name for symbol in plant.parameters),
+            dynamics=dynamics,
+            method=made.method if made else "none",
+            substeps=made.substeps if made else 1,
+            dt=plant.dt if plant.dt is not None else 1.0,
+            noises=tuple(_noise_description(noise) for noise in plant.process_noises),
+            step_variances=tuple(plant.step_variances),
+            sensors=tuple(sensors),
+            floor=np.array(self.floor),
+            ceiling=np.array(self.ceiling),
+        )
+
+    def _scenario(self, model: textbook.Model) -> Scenario:
+        x0, u0 = self._nominal()
+        variances = np.array(
+            self._per_error(self.options.initial_variance, "initial_variance", LOWEST_VARIANCE, HIGHEST_VARIANCE)
+        )
+        params = {signal.name: np.array(signal.default) for signal in self.block.param_signals}
+        plant = self.plant
+        low = np.array([item for symbol in plant.inputs for item in symbol.signal.low])
+        high = np.array([item for symbol in plant.inputs for item in symbol.signal.high])
+        exercise = textbook.Exercise(model, x0, u0, np.minimum(0.01 * (high - low), 1.0 + np.abs(u0)), variances, params)
+
+        def scales(memory: Mapping[str, Any]) -> dict[str, Any]:
+            return sigma_of(plant.states, self.n, memory)
+
+        return Scenario(exercise.calls, exercise.memory, scales, "dt" if isinstance(plant.dt, tuple) else "")
+
+    def _derivative_checks(self, model: textbook.Model, block: Block) -> list[DerivativeCheck]:
+        """F and each H as the block evaluates them, beside complex step and central differences of f and h."""
+        checks = []
+        functions = [("F", block.entries["predict"], "f")]
+        functions += [(f"H_{sensor.name}", block.entries[f"update_{sensor.name}"], "h") for sensor in model.sensors]
+        for name, entry, local in functions:
+            evaluate = next(item for item in entry.body if isinstance(item, Evaluate))
+            kernel = next(item for item in entry.body if isinstance(item, (Congruence, InnovationVariance)))
+            pattern = kernel.f_pattern if isinstance(kernel, Congruence) else kernel.h_pattern
+            rows = self.n if name == "F" else entry.inputs[0].size
+            checks.append(
+                DerivativeCheck(
+                    name,
+                    _ours(evaluate, local, pattern, (rows, self.n)),
+                    textbook.derivative(model, name, "complex step"),
+                    textbook.derivative(model, name, "central differences"),
+                    tuple(tape(evaluate.function).kinks),
+                )
+            )
+        return checks
+
+
+def _ours(evaluate: Evaluate, local: str, pattern: Pattern, shape: tuple[int, int]) -> Any:
+    """Return a callable that evaluates a Jacobian of the block at named values."""
+
+    def at(values: Mapping[str, Any]) -> Array:
+        arguments = []
+        for places in evaluate.reads:
+            arguments.append(ca.DM(np.concatenate([np.ravel(values[place.name]) for place, _ in places])))
+        outputs = evaluate.function.call(arguments)
+        index = next(k for k, places in enumerate(evaluate.writes) if places[0][0].name == local)
+        matrix = np.zeros(shape)
+        for (i, j), value in zip(pattern, outputs[index].nonzeros(), strict=True):
+            matrix[i, j] = value
+        return matrix
+
+    return at
+
+
+def sigma_of(states: list[State], n: int, memory: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the standard deviation of each field of a filter's memory, from its covariance."""
+    P = unpack_symmetric(np.asarray(memory["covariance"], dtype=float), n)
+    sigma = np.sqrt(np.maximum(np.diag(P), 1e-300))
+    answer: dict[str, Any] = {}
+    for state in states:
+        own = sigma[state.error_at]
+        answer[state.signal.name] = np.full(4, 0.5 * float(np.max(own))) if state.attitude else own
+    answer["covariance"] = np.outer(sigma, sigma)[np.triu_indices(n)]
+    return answer
+
+
+def dynamics_equations(plant: Plant) -> list[str]:
+    """Return the dynamics as text, one equation a line."""
+    source = plant.discretisation.continuous if plant.discretisation else plant
+    texts = equation_text(source.dynamics_expression(fold=False), plant.symbol_names())
+    mark = "+" if source.is_discrete else "'"
+    lines = []
+    for state in plant.states:
+        size = state.error_at.stop - state.error_at.start
+        for i in range(size):
+            name = state.signal.name if size == 1 else f"{state.signal.name}[{i}]"
+            left = f"rate of {name}" if state.attitude else f"{name}{mark}"
+            lines.append(f"{left} = {texts[state.error_at.start + i]}")
+    return lines
+
+
+def plant_equations(plant: Plant) -> list[str]:
+    """Return dynamics and sensors as text, one equation a line, for the header."""
+    lines = dynamics_equations(plant)
+    for sensor in plant.sensors:
+        size = sensor.signal.size
+        for i, text in enumerate(equation_text(sensor.expression, plant.symbol_names())):
+            noise = " + noise" if sensor.strength is not None or sensor.variance_expression is not None else ""
+            lines.append(f"{sensor.signal.name}{'' if size == 1 else f'[{i}]'} = {text}{noise}")
+    return lines
+
+
+def _noise_description(noise: Noise) -> textbook.NoiseModel:
+    kind = "density" if noise.is_density else "variance"
+    return textbook.NoiseModel(f"{kind}_{noise.signal.name}", noise.signal.size, noise.is_density, noise.full)
+
+
+def _definite_or_refuse(place: Place, size: int, name: str) -> list[Statement]:
+    """Factorise a packed matrix parameter and refuse it unless it is positive definite."""
+    pattern = tuple((i, j) for i in range(size) for j in range(i, size))
+    names = tuple(f"{name}_{i}_{j}" for i, j in pattern)
+    local = f"pivot_{name}"
+    kernel = Pivots(size, place, pattern, Place("local", local), names)
+    return [
+        kernel,
+        Refuse(Status.BAD_PARAM, _all_above(Place("local", local), size, SMALLEST_VARIANCE)),
+    ]
+
+
+def _all_above(place: Place, size: int, limit: float) -> AllOf:
+    return AllOf(tuple(Compare(Element(place, i), ">=", limit) for i in range(size)))
+
+
+def _is_one(expression: ca.SX) -> bool:
+    return bool(expression.is_constant()) and float(expression) == 1.0
+
+
+def _pack(matrix: Array) -> Array:
+    return np.asarray(matrix)[np.triu_indices(len(matrix))]
+
+
+def _unpack(symbol: ca.SX, size: int) -> ca.SX:
+    matrix = ca.SX(size, size)
+    for i in range(size):
+        for j in range(size):
+            matrix[i, j] = symbol[packed_index(size, i, j)]
+    return matrix

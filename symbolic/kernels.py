@@ -1,0 +1,458 @@
+"""Kernels on packed symmetric matrices: congruence, scalar measurement update, decorrelation.
+
+Each gives its scalar form, exploiting the sparsity it is told of, and its dense form. The two are written separately,
+so that one checks the other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .program import Array, Kernel, Place, pack_symmetric, packed_index, packed_size, unpack_symmetric
+
+Pattern = tuple[tuple[int, int], ...]
+"""(row, column) of each structural nonzero, in the order in which the values come."""
+
+SMALLEST_VARIANCE = 1.0e-20
+"""Least innovation variance that is divided by."""
+
+
+def _total(terms: list[Any]) -> Any:
+    answer = terms[0]
+    for term in terms[1:]:
+        answer = answer + term
+    return answer
+
+
+def _packed_names(size: int) -> tuple[str, ...]:
+    return tuple(f"p_{i}_{j}" for i in range(size) for j in range(i, size))
+
+
+def _full(pattern: Pattern, values: Array, shape: tuple[int, int]) -> Array:
+    matrix = np.zeros(shape)
+    for (i, j), value in zip(pattern, values, strict=True):
+        matrix[i, j] = value
+    return matrix
+
+
+@dataclass(frozen=True)
+class Congruence(Kernel):
+    """P -> F P F' + Q, F sparse, P and the result packed, Q given on a pattern of its upper triangle."""
+
+    size: int
+    f: Place
+    f_pattern: Pattern
+    p: Place
+    q: Place | None
+    q_pattern: Pattern
+    target: Place
+    f_names: tuple[str, ...] = ()
+    q_names: tuple[str, ...] = ()
+    comment: tuple[str, ...] = ("P = F P F' + Q",)
+
+    @property
+    def reads(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
+        """F, P and Q."""
+        own = ((self.f, len(self.f_pattern)), (self.p, packed_size(self.size)))
+        return own + (((self.q, len(self.q_pattern)),) if self.q else ())
+
+    @property
+    def writes(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
+        """The new P."""
+        return ((self.target, packed_size(self.size)),)
+
+    def names(self) -> tuple[tuple[str, ...], ...]:
+        """Names of F's, P's and Q's elements."""
+        return (self.f_names, _packed_names(self.size)) + ((self.q_names,) if self.q else ())
+
+    def scalar(self, *values: list[Any]) -> list[list[Any]]:
+        """Sparse rows of F; each element of F P is formed once, and only where needed."""
+        f, p = values[0], values[1]
+        noise = dict(zip(self.q_pattern, values[2], strict=True)) if self.q else {}
+        rows: list[list[tuple[int, Any]]] = [[] for _ in range(self.size)]
+        for (i, j), value in zip(self.f_pattern, f, strict=True):
+            rows[i].append((j, value))
+        # the diagonal term first: it is the large one
+        rows = [sorted(row, key=lambda item, i=i: (item[0] != i, item[0])) for i, row in enumerate(rows)]
+        product: dict[tuple[int, int], Any] = {}
+
+        def half(i: int, k: int) -> Any:
+            if (i, k) not in product:
+                product[i, k] = _total([value * p[packed_index(self.size, j, k)] for j, value in rows[i]])
+            return product[i, k]
+
+        answer = []
+        for i in range(self.size):
+            for j in range(i, self.size):
+                value = _total([coefficient * half(i, k) for k, coefficient in rows[j]])
+                if (i, j) in noise:
+                    value = value + noise[i, j]
+                answer.append(value)
+        return [answer]
+
+    def dense(self, *values: Array) -> list[Array]:
+        """The textbook product."""
+        F = _full(self.f_pattern, values[0], (self.size, self.size))
+        P = unpack_symmetric(values[1], self.size)
+        result = F @ P @ F.T
+        if self.q:
+            upper = _full(self.q_pattern, values[2], (self.size, self.size))
+            result = result + upper + np.triu(upper, 1).T
+        return [pack_symmetric(0.5 * (result + result.T))]
+
+
+@dataclass(frozen=True)
+class RowUpdate(Kernel):
+    """One row of a measurement: correct the error vector and the covariance by a scalar update.
+
+    The row corrects with residual - H_i d, d being the correction of the rows before it; that is the batch update
+    (Bierman 1977, ch. V). Where the row measures one state alone, its row of P becomes r K, which cancels nothing.
+    """
+
+    size: int
+    row: int
+    residual: Place
+    rows: int
+    h: Place
+    h_pattern: Pattern
+    r: Place
+    r_count: int
+    p: Place
+    target: Place
+    single: bool
+    h_names: tuple[str, ...] = ()
+    r_names: tuple[str, ...] = ()
+    residual_names: tuple[str, ...] = ()
+    comment: tuple[str, ...] = ()
+    delta: Place = Place("local", "delta")
+    scales: Place = Place("local", "row_variance")
+    nis: Place = Place("local", "nis")
+
+    @property
+    def reads(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
+        """Residuals, H, r, P, and the correction and NIS so far."""
+        own = (
+            (self.residual, self.rows),
+            (self.h, len(self.h_pattern)),
+            (self.r, self.r_count),
+            (self.p, packed_size(self.size)),
+        )
+        return own if self.row == 0 else (*own, (self.delta, self.size), (self.nis, 1), (self.scales, self.rows))
+
+    @property
+    def writes(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
+        """P, the correction, NIS, and the variances of the rows."""
+        return (
+            (self.target, packed_size(self.size)),
+            (self.delta, self.size),
+            (self.nis, 1),
+            (self.scales, self.rows),
+        )
+
+    def names(self) -> tuple[tuple[str, ...], ...]:
+        """Names of the elements it reads."""
+        own = (self.residual_names, self.h_names, self.r_names, _packed_names(self.size))
+        delta = tuple(f"delta_{i}" for i in range(self.size))
+        scales = tuple(f"row_variance_{i}" for i in range(self.rows))
+        return own if self.row == 0 else (*own, delta, ("nis_before",), scales)
+
+    def scalar(self, *values: list[Any]) -> list[list[Any]]:
+        """The update element by element."""
+        residual, h, r, p = values[:4]
+        first = self.row == 0
+        n, r_i = self.size, r[self.row]
+        terms = [(j, value) for (i, j), value in zip(self.h_pattern, h, strict=True) if i == self.row]
+        cross = [_total([value * p[packed_index(n, k, j)] for j, value in terms]) for k in range(n)]
+        variance = _total([value * cross[j] for j, value in terms]) + r_i
+        per_variance = variance.named("s").reciprocal_above(SMALLEST_VARIANCE).named("per_s")
+        innovation = residual[self.row]
+        if not first:
+            innovation = innovation - _total([value * values[4][j] for j, value in terms])
+        innovation = innovation.named("e")
+        # n = -K: each element is then a product and a sum, one instruction less than with a difference
+        minus = (-per_variance).named("minus_per_s")
+        loss = [(item * minus).named(f"n_{k}") for k, item in enumerate(cross)]
+        minus_innovation = (-innovation).named("minus_e")
+        nis = innovation * (innovation * per_variance)
+        delta = [item * minus_innovation for item in loss]
+        scales = [variance if k == self.row else None for k in range(self.rows)]
+        if not first:
+            delta = [old + new for old, new in zip(values[4], delta, strict=True)]
+            nis = values[5][0] + nis
+        measured = terms[0][0] if self.single else -1
+        minus_r = (-r_i).named("minus_r")
+        updated = []
+        for i in range(n):
+            for j in range(i, n):
+                if measured in (i, j):
+                    updated.append(minus_r * loss[i + j - measured])
+                else:
+                    updated.append(p[packed_index(n, i, j)] + loss[i] * cross[j])
+        return [updated, delta, [nis], scales]
+
+    def dense(self, *values: Array) -> list[Array]:
+        """The same update with matrices, in Joseph's form."""
+        residual, h, r, p = values[:4]
+        first = self.row == 0
+        H = _full(self.h_pattern, h, (self.rows, self.size))[self.row]
+        P = unpack_symmetric(p, self.size)
+        delta = np.zeros(self.size) if first else values[4]
+        nis = 0.0 if first else float(values[5][0])
+        scales = np.ones(self.rows) if first else values[6].copy()
+        variance = float(H @ P @ H + r[self.row])
+        gain = P @ H / (variance if variance >= SMALLEST_VARIANCE else 1.0)
+        innovation = float(residual[self.row] - H @ delta)
+        scales[self.row] = variance
+        keep = np.eye(self.size) - np.outer(gain, H)
+        updated = keep @ P @ keep.T + r[self.row] * np.outer(gain, gain)
+        nis += innovation**2 / (variance if variance >= SMALLEST_VARIANCE else 1.0)
+        return [pack_symmetric(updated), delta + gain * innovation, np.array([nis]), scales]
+
+
+@dataclass(frozen=True)
+class InnovationVariance(Kernel):
+    """Diagonal of H P H' + R at the prior."""
+
+    size: int
+    rows: int
+    h: Place
+    h_pattern: Pattern
+    r: Place
+    r_pattern: Pattern
+    p: Place
+    target: Place
+    h_names: tuple[str, ...] = ()
+    r_names: tuple[str, ...] = ()
+    comment: tuple[str, ...] = ("variance of the innovation: diagonal of H P H' + R",)
+
+    @property
+    def reads(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
+        """H, R and P."""
+        return (
+            (self.h, len(self.h_pattern)),
+            (self.r, len(self.r_pattern)),
+            (self.p, packed_size(self.size)),
+        )
+
+    @property
+    def writes(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
+        """The diagonal."""
+        return ((self.target, self.rows),)
+
+    def names(self) -> tuple[tuple[str, ...], ...]:
+        """Names of the elements it reads."""
+        return (self.h_names, self.r_names, _packed_names(self.size))
+
+    def scalar(self, *values: list[Any]) -> list[list[Any]]:
+        """Sparse quadratic forms."""
+        h, r, p = values
+        noise = dict(zip(self.r_pattern, r, strict=True))
+        answer = []
+        for row in range(self.rows):
+            terms = [(j, value) for (i, j), value in zip(self.h_pattern, h, strict=True) if i == row]
+            cross = [_total([a * p[packed_index(self.size, j, k)] for k, a in terms]) for j, _ in terms]
+            answer.append(_total([a * item for (_, a), item in zip(terms, cross, strict=True)]) + noise[row, row])
+        return [answer]
+
+    def dense(self, *values: Array) -> list[Array]:
+        """The same with matrices."""
+        h, r, p = values
+        H = _full(self.h_pattern, h, (self.rows, self.size))
+        noise = dict(zip(self.r_pattern, r, strict=True))
+        spread = np.diag(H @ unpack_symmetric(p, self.size) @ H.T)
+        return [np.array([spread[i] + noise[i, i] for i in range(self.rows)])]
+
+
+def _factorised(rows: int, pattern: Pattern, values: list[Any]) -> tuple[dict[tuple[int, int], Any], list[Any]]:
+    """Return the elements of L below its diagonal, and D, of R = L D L', element by element."""
+    noise = {(max(i, j), min(i, j)): value for (i, j), value in zip(pattern, values, strict=True)}
+    lower: dict[tuple[int, int], Any] = {}
+    weighted: dict[tuple[int, int], Any] = {}
+    diagonal: list[Any] = []
+    for i in range(rows):
+        pivot = noise[i, i]
+        for k in range(i):
+            terms = [weighted[i, m] * lower[k, m] for m in range(k) if (i, m) in weighted and (k, m) in lower]
+            value = noise.get((i, k))
+            if value is None and not terms:
+                continue
+            if value is None:
+                total = -_total(terms)
+            else:
+                total = value - _total(terms) if terms else value
+            weighted[i, k] = total
+            lower[i, k] = total * diagonal[k].reciprocal_above(SMALLEST_VARIANCE)
+            pivot = pivot - total * lower[i, k]
+        diagonal.append(pivot)
+    return lower, diagonal
+
+
+def _dense_factors(R: Array) -> tuple[Array, Array]:
+    """Return L and D of a definite matrix; of any other, D with a negative element."""
+    if np.all(np.isfinite(R)) and np.all(np.linalg.eigvalsh(R) > 0):
+        root = np.linalg.cholesky(R)
+        return root / np.diag(root), np.diag(root) ** 2
+    return np.eye(len(R)), np.full(len(R), -1.0)
+
+
+@dataclass(frozen=True)
+class Pivots(Kernel):
+    """D of R = L D L', for a packed symmetric R: all positive where R is positive definite."""
+
+    rows: int
+    r: Place
+    r_pattern: Pattern
+    target: Place
+    r_names: tuple[str, ...] = ()
+
+    @property
+    def comment(self) -> tuple[str, ...]:  # type: ignore[override]
+        """What the C says."""
+        return (f"{self.r.name} must be positive definite: pivots of its factorisation",)
+
+    @property
+    def reads(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
+        """R."""
+        return ((self.r, len(self.r_pattern)),)
+
+    @property
+    def writes(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
+        """D."""
+        return ((self.target, self.rows),)
+
+    def names(self) -> tuple[tuple[str, ...], ...]:
+        """Names of the elements it reads."""
+        return (self.r_names,)
+
+    def scalar(self, *values: list[Any]) -> list[list[Any]]:
+        """Factorise element by element."""
+        return [_factorised(self.rows, self.r_pattern, values[0])[1]]
+
+    def dense(self, *values: Array) -> list[Array]:
+        """The same by Cholesky."""
+        upper = _full(self.r_pattern, values[0], (self.rows, self.rows))
+        return [_dense_factors(np.triu(upper) + np.triu(upper, 1).T)[1]]
+
+
+@dataclass(frozen=True)
+class Decorrelate(Kernel):
+    """R = L D L'; H -> L^-1 H, residual -> L^-1 residual: rows with uncorrelated noise D."""
+
+    rows: int
+    size: int
+    residual: Place
+    h: Place
+    h_pattern: Pattern
+    r: Place
+    r_pattern: Pattern
+    new_residual: Place
+    new_h: Place
+    new_r: Place
+    h_names: tuple[str, ...] = ()
+    r_names: tuple[str, ...] = ()
+    residual_names: tuple[str, ...] = ()
+    comment: tuple[str, ...] = ("R = L D L'; rows of H and the innovation are made uncorrelated by L^-1",)
+
+    @property
+    def new_pattern(self) -> Pattern:
+        """Pattern of L^-1 H: each row also has the columns of the rows above it that it is correlated with."""
+        linked = {(max(i, j), min(i, j)) for i, j in self.r_pattern if i != j}
+        columns: list[set[int]] = [{j for i, j in self.h_pattern if i == row} for row in range(self.rows)]
+        # Cholesky fill-in: rows linked to a common earlier row become linked
+        for k in range(self.rows):
+            below = [i for i in range(k + 1, self.rows) if (i, k) in linked]
+            linked |= {(max(a, b), min(a, b)) for a in below for b in below if a != b}
+        for i in range(self.rows):
+            for k in range(i):
+                if (i, k) in linked:
+                    columns[i] |= columns[k]
+        return tuple((i, j) for i in range(self.rows) for j in sorted(columns[i]))
+
+    @property
+    def reads(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
+        """Residual, H and R."""
+        return (
+            (self.residual, self.rows),
+            (self.h, len(self.h_pattern)),
+            (self.r, len(self.r_pattern)),
+        )
+
+    @property
+    def writes(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
+        """Residual, H and the diagonal D."""
+        return (
+            (self.new_residual, self.rows),
+            (self.new_h, len(self.new_pattern)),
+            (self.new_r, self.rows),
+        )
+
+    def names(self) -> tuple[tuple[str, ...], ...]:
+        """Names of the elements it reads."""
+        return (self.residual_names, self.h_names, self.r_names)
+
+    def scalar(self, *values: list[Any]) -> list[list[Any]]:
+        """Factorise and substitute, element by element."""
+        residual, h, r = values
+        lower, diagonal = _factorised(self.rows, self.r_pattern, r)
+        table: list[dict[int, Any]] = [{} for _ in range(self.rows)]
+        for (i, j), value in zip(self.h_pattern, h, strict=True):
+            table[i][j] = value
+        new_residual = list(residual)
+        for i in range(self.rows):
+            for k in range(i):
+                if (i, k) not in lower:
+                    continue
+                new_residual[i] = new_residual[i] - lower[i, k] * new_residual[k]
+                for j, value in table[k].items():
+                    product = lower[i, k] * value
+                    table[i][j] = table[i][j] - product if j in table[i] else -product
+        return [new_residual, [table[i][j] for i, j in self.new_pattern], diagonal]
+
+    def dense(self, *values: Array) -> list[Array]:
+        """The same with SciPy's factorisation where R is definite, else by elimination."""
+        residual, h, r = values
+        upper = _full(self.r_pattern, r, (self.rows, self.rows))
+        R = np.triu(upper) + np.triu(upper, 1).T
+        H = _full(self.h_pattern, h, (self.rows, self.size))
+        L, D = _dense_factors(R)
+        H = np.linalg.solve(L, H)
+        picked = np.array([H[i, j] for i, j in self.new_pattern])
+        return [np.linalg.solve(L, residual), picked, D]
+
+
+@dataclass(frozen=True)
+class Scale(Kernel):
+    """Multiply every element of a vector by a factor."""
+
+    size: int
+    factor: Place
+    source: Place
+    target: Place
+    comment: tuple[str, ...] = ()
+    symmetric: int = 0
+
+    @property
+    def reads(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
+        """Factor and vector."""
+        return ((self.factor, 1), (self.source, self.size))
+
+    @property
+    def writes(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
+        """The scaled vector."""
+        return ((self.target, self.size),)
+
+    def names(self) -> tuple[tuple[str, ...], ...]:
+        """Names of the elements it reads."""
+        elements = _packed_names(self.symmetric) if self.symmetric else tuple(f"v_{i}" for i in range(self.size))
+        return (("factor",), elements)
+
+    def scalar(self, *values: list[Any]) -> list[list[Any]]:
+        """Element by element."""
+        return [[values[0][0] * item for item in values[1]]]
+
+    def dense(self, *values: Array) -> list[Array]:
+        """The same as an array."""
+        return [values[0][0] * values[1]]

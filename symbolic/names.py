@@ -1,0 +1,99 @@
+"""Which names may become C identifiers."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from .errors import ModelError
+
+_C_AND_CPP_KEYWORDS = frozenset(
+    """
+    auto break case char const continue default do double else enum extern float for goto if inline int long register
+    restrict return short signed sizeof static struct switch typedef union unsigned void volatile while
+    alignas alignof and and_eq asm atomic_cancel bitand bitor bool catch char8_t char16_t char32_t class compl concept
+    consteval constexpr constinit const_cast co_await co_return co_yield decltype delete dynamic_cast explicit export
+    false friend mutable namespace new noexcept not not_eq nullptr operator or or_eq private protected public
+    reinterpret_cast requires static_assert static_cast template this thread_local throw true try typeid typename
+    typeof typeof_unqual using virtual wchar_t xor xor_eq
+    """.split()
+)
+
+# Macros of <math.h>, <complex.h>, <errno.h>, Arduino.h, AVR, CMSIS, Windows and POSIX headers: a struct field of that
+# name would be replaced by the preprocessor in somebody's build.
+_MACROS = frozenset(
+    """
+    I J PI HALF_PI TWO_PI DEG_TO_RAD RAD_TO_DEG EULER F E M_E M_PI M_PI_2 M_PI_4 NAN INFINITY HUGE_VAL NULL EOF
+    HIGH LOW INPUT OUTPUT DEFAULT EXTERNAL INTERNAL CHANGE RISING FALLING SERIAL DISPLAY LSBFIRST MSBFIRST
+    min max abs round sq bit bitSet bitClear bitRead bitWrite constrain radians degrees lowByte highByte interrupts
+    noInterrupts near far small huge interface unix linux i386 arm errno assert offsetof stdin stdout stderr signgam
+    isnan isinf isfinite isnormal signbit fpclassify complex imaginary _Complex_I setjmp major minor makedev
+    __I __O __IO TRUE FALSE ERROR OK SUCCESS BIT UNUSED RESET SET ENABLE DISABLE
+    """.split()
+)
+
+_FUNCTIONS_THE_C_CALLS = frozenset(
+    """
+    sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp expm1 log log1p pow sqrt cbrt fabs floor ceil
+    fmin fmax fmod hypot copysign erf main
+    """.split()
+)
+
+_WORDS_OF_THE_GENERATED_C = frozenset("before after params in out state status answer latest spare gate".split())
+
+_ARDUINO_BINARY_CONSTANT = re.compile(r"B[01]{1,8}")
+_IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+
+
+def why_not_a_name(name: str) -> str | None:
+    """Say why `name` cannot be used in the generated C, or None if it can."""
+    if not isinstance(name, str) or not name:
+        return "is not a word"
+    if name.startswith("_") or "__" in name:
+        return "is reserved for C and C++ compilers (a leading or a double underscore)"
+    if not _IDENTIFIER.fullmatch(name):
+        return "is not a C identifier (letters, digits and underscores, a letter first)"
+    if len(name) > 48:
+        return "is longer than 48 characters"
+    if name in _C_AND_CPP_KEYWORDS:
+        return "is a keyword of C or C++"
+    if name in _MACROS or _ARDUINO_BINARY_CONSTANT.fullmatch(name):
+        return "is a macro in common C headers, which would replace it"
+    if name in _FUNCTIONS_THE_C_CALLS:
+        return "is a function that the generated C calls"
+    if name in _WORDS_OF_THE_GENERATED_C:
+        return "is a word that the generated C uses itself"
+    return None
+
+
+def check_name(kind: str, name: str, owner: str) -> str:
+    """Return `name`, or raise a ModelError that says what is wrong with it and proposes another.
+
+    Parameters
+    ----------
+    kind : str
+        What is being named, such as ``"state"``.
+    name : str
+        The proposed name.
+    owner : str
+        The plant or block, for the message.
+    """
+    reason = why_not_a_name(name)
+    if reason is None:
+        return name
+    stem = re.sub(r"[^A-Za-z0-9]+", "_", str(name)).strip("_").lower() or kind
+    word = kind.split()[-1]
+    candidates = [stem, f"{stem}_{word}", f"{word}_{stem}", f"{word}_{stem[:32]}".strip("_"), f"{word}_1"]
+    proposal = next(item for item in candidates if item != name and why_not_a_name(item) is None)
+    raise ModelError(f"{owner}: the {kind} name {name!r} {reason}; call it {proposal!r}, say")
+
+
+def check_unique(names: Iterable[tuple[str, str]], owner: str) -> None:
+    """Raise a ModelError if two of the (name, what it is) pairs share a name."""
+    seen: dict[str, str] = {}
+    for name, what in names:
+        if name in seen:
+            raise ModelError(
+                f"{owner}: {what} and {seen[name]} would both be called {name!r} in the generated C; rename one of them"
+            )
+        seen[name] = what

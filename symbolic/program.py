@@ -1,0 +1,580 @@
+"""The body of an entry: a short bounded program over named places, and its execution in Python.
+
+A statement is an open unit. It says what it reads and writes, runs itself on NumPy arrays (`run`), and, where it is
+arithmetic, gives its scalar operations, from which the emitter prints C.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal, Protocol
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from .signals import Signal, Status
+
+if TYPE_CHECKING:
+    from .block import Block
+
+Array = NDArray[Any]
+Space = Literal["memory", "next", "param", "in", "out", "local"]
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a value lives: the memory before the call, its candidate after, a parameter, an input, an output, a local.
+
+    A name with dots goes into nested structs.
+    """
+
+    space: Space
+    name: str
+
+
+@dataclass(frozen=True)
+class Element:
+    """One element of a place."""
+
+    place: Place
+    index: int = 0
+
+
+Operand = Element | float
+
+
+class Refused(Exception):  # noqa: N818 - it is an outcome, not an error
+    """A negative status: nothing changes."""
+
+    def __init__(self, status: Status):
+        super().__init__(status.name)
+        self.status = status
+
+
+@dataclass
+class Frame:
+    """The places of one running entry, and how near it came to a switch.
+
+    Attributes
+    ----------
+    values : dict
+        Place -> array.
+    status : Status
+        Highest positive status so far.
+    margin : float
+        Smallest distance of a compared value from its limit, relative to the larger of them; a map is discontinuous
+        there, and rounding may take either branch.
+    """
+
+    block: Block
+    values: dict[Place, Array]
+    params: dict[str, Array]
+    status: Status = Status.OK
+    margin: float = math.inf
+    patches: dict[str, Any] = field(default_factory=dict)
+
+    def read(self, operand: Operand) -> float:
+        """Return the value of an operand."""
+        if isinstance(operand, Element):
+            return float(self.values[operand.place].ravel()[operand.index])
+        return operand
+
+    def raise_to(self, status: Status) -> None:
+        """Keep the highest positive status."""
+        self.status = max(self.status, status)
+
+    def near(self, value: float, limit: float, scale: float | None = None) -> None:
+        """Record a comparison."""
+        size = max(abs(value), abs(limit)) if scale is None else max(abs(scale), abs(limit))
+        if math.isfinite(value) and math.isfinite(limit) and size > 0:
+            self.margin = min(self.margin, abs(value - limit) / size)
+
+    def memory_spaces(self, space: Space) -> dict[str, Array]:
+        """Return name -> array of all places in a space."""
+        return {place.name: value for place, value in self.values.items() if place.space == space}
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Conditions
+
+
+class Condition(Protocol):
+    """Something that holds or does not."""
+
+    def holds(self, frame: Frame) -> bool:
+        """Evaluate it, recording how near the comparison was."""
+        ...
+
+
+@dataclass(frozen=True)
+class Within:
+    """Every element of a place lies in its range; false for NaN. Single precision compares with rounded ends."""
+
+    place: Place
+    low: tuple[float, ...]
+    high: tuple[float, ...]
+    first: int = 0
+
+    def holds(self, frame: Frame) -> bool:
+        value = frame.values[self.place].ravel()[self.first : self.first + len(self.low)]
+        ok = True
+        for item, low, high in zip(value, self.low, self.high, strict=True):
+            frame.near(float(item), low)
+            frame.near(float(item), high)
+            ok = ok and bool(low <= item <= high)
+        return ok
+
+
+@dataclass(frozen=True)
+class Compare:
+    """left (relation) right; `scale` is the natural size of the compared value, for the margin."""
+
+    left: Operand
+    relation: Literal["<", "<=", ">", ">="]
+    right: Operand
+    scale: Operand | None = None
+
+    def holds(self, frame: Frame) -> bool:
+        a, b = frame.read(self.left), frame.read(self.right)
+        frame.near(a, b, None if self.scale is None else frame.read(self.scale))
+        return {"<": a < b, "<=": a <= b, ">": a > b, ">=": a >= b}[self.relation]
+
+
+@dataclass(frozen=True)
+class IsSet:
+    """A flag is up."""
+
+    flag: Element
+
+    def holds(self, frame: Frame) -> bool:
+        return bool(frame.read(self.flag))
+
+
+@dataclass(frozen=True)
+class AllOf:
+    """All conditions hold; the first that does not ends the evaluation."""
+
+    conditions: tuple[Condition, ...]
+
+    def holds(self, frame: Frame) -> bool:
+        return all(condition.holds(frame) for condition in self.conditions)
+
+
+@dataclass(frozen=True)
+class AnyOf:
+    """One of the conditions holds; the first that does ends the evaluation."""
+
+    conditions: tuple[Condition, ...]
+
+    def holds(self, frame: Frame) -> bool:
+        return any(condition.holds(frame) for condition in self.conditions)
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Statements
+
+
+class Statement(Protocol):
+    """One step of a program."""
+
+    def run(self, frame: Frame) -> None:
+        """Execute it on the frame's arrays."""
+        ...
+
+
+@dataclass(frozen=True)
+class Evaluate:
+    """Evaluate a CasADi SX function.
+
+    Attributes
+    ----------
+    function : casadi.Function
+        Scalar (SX) function.
+    reads : tuple of tuple of Place
+        For each argument the places whose elements, in order, fill it.
+    writes : tuple of tuple of (Place, size)
+        For each output the places that take its structural nonzeros, in order.
+    names : tuple of tuple of str
+        For each output the C names of its nonzeros, where they go into locals.
+    comment : tuple of str
+        The equations, one a line.
+    """
+
+    function: ca.Function
+    reads: tuple[tuple[tuple[Place, int], ...], ...]
+    writes: tuple[tuple[tuple[Place, int], ...], ...]
+    names: tuple[tuple[str, ...], ...]
+    comment: tuple[str, ...] = ()
+
+    def run(self, frame: Frame) -> None:
+        arguments = []
+        for places in self.reads:
+            parts = [np.asarray(frame.values[place], dtype=float).ravel() for place, _ in places]
+            arguments.append(ca.DM(np.concatenate(parts) if parts else np.zeros(0)))
+        function = frame.patches.get(self.function.name(), self.function)
+        outputs = function.call(arguments)
+        for output, places in zip(outputs, self.writes, strict=True):
+            flat = np.array(output.nonzeros(), dtype=float)
+            start = 0
+            for place, size in places:
+                frame.values[place] = flat[start : start + size]
+                start += size
+
+
+class Scalars(Protocol):
+    """What a kernel's scalar form computes with: graph nodes of the emitter, or plain numbers."""
+
+    def __add__(self, other: Any) -> Any: ...
+    def __sub__(self, other: Any) -> Any: ...
+    def __mul__(self, other: Any) -> Any: ...
+    def __neg__(self) -> Any: ...
+
+
+class Kernel:
+    """Arithmetic on symmetric matrices and vectors, in two independent forms.
+
+    `scalar` is the algorithm element by element: what the C does. `dense` is the same map as NumPy matrix algebra.
+    """
+
+    reads: tuple[tuple[Place, int], ...]
+    writes: tuple[tuple[Place, int], ...]
+    comment: tuple[str, ...] = ()
+
+    def scalar(self, *values: list[Any]) -> list[list[Any]]:
+        """Return the written values from the read ones, as lists of scalars."""
+        raise NotImplementedError
+
+    def dense(self, *values: Array) -> list[Array]:
+        """Return the written values from the read ones, as arrays."""
+        raise NotImplementedError
+
+    def names(self) -> tuple[tuple[str, ...], ...]:
+        """Return C name stems for the elements of what it reads."""
+        return tuple(tuple(f"{place.name}_{index}" for index in range(size)) for place, size in self.reads)
+
+    def run(self, frame: Frame) -> None:
+        """Execute the dense form."""
+        values = [np.asarray(frame.values[place], dtype=float).ravel() for place, _ in self.reads]
+        with np.errstate(all="ignore"):
+            answers = self.dense(*values)
+        for (place, _), answer in zip(self.writes, answers, strict=True):
+            frame.values[place] = answer
+
+
+@dataclass(frozen=True)
+class Refuse:
+    """Return a negative status, unless a condition holds."""
+
+    status: Status
+    unless: Condition
+    comment: str = ""
+
+    def run(self, frame: Frame) -> None:
+        if not self.unless.holds(frame):
+            raise Refused(self.status)
+
+
+@dataclass(frozen=True)
+class Raise:
+    """Return at least this positive status."""
+
+    status: Status
+
+    def run(self, frame: Frame) -> None:
+        frame.raise_to(self.status)
+
+
+@dataclass(frozen=True)
+class When:
+    """Run one of two lists of statements."""
+
+    condition: Condition
+    then: tuple[Statement, ...]
+    otherwise: tuple[Statement, ...] = ()
+    comment: str = ""
+
+    def run(self, frame: Frame) -> None:
+        for statement in self.then if self.condition.holds(frame) else self.otherwise:
+            statement.run(frame)
+
+
+@dataclass(frozen=True)
+class Restore:
+    """Make the candidate memory what the memory was before the call."""
+
+    def run(self, frame: Frame) -> None:
+        for name, value in frame.memory_spaces("memory").items():
+            frame.values[Place("next", name)] = value.copy()
+
+
+@dataclass(frozen=True)
+class Assign:
+    """Copy a place (or a number into every element of it)."""
+
+    target: Place
+    source: Place | float
+    size: int = 1
+
+    def run(self, frame: Frame) -> None:
+        old = frame.values.get(self.target)
+        value = frame.values[self.source] if isinstance(self.source, Place) else np.full(self.size, self.source)
+        frame.values[self.target] = np.array(value, dtype=old.dtype if old is not None else float).reshape(self.size)
+
+
+@dataclass(frozen=True)
+class AssignElement:
+    """Copy one element."""
+
+    target: Element
+    source: Element
+
+    def run(self, frame: Frame) -> None:
+        frame.values[self.target.place].ravel()[self.target.index] = frame.read(self.source)
+
+
+@dataclass(frozen=True)
+class CountUp:
+    """Add one to a counter of the candidate memory; it stays at its largest value."""
+
+    target: Place
+
+    def run(self, frame: Frame) -> None:
+        value = int(frame.values[self.target].ravel()[0])
+        frame.values[self.target] = np.array([min(value + 1, 2**32 - 1)], dtype=np.uint32)
+
+
+@dataclass(frozen=True)
+class HoldVariances:
+    """Keep the diagonal of a packed symmetric matrix between floors and ceilings.
+
+    An element not above zero is refused (NOT_POSITIVE). Above its ceiling c, row and column are scaled by
+    sqrt(c / P_ii), which keeps the matrix definite; below its floor the floor is stored (CLAMPED).
+    """
+
+    target: Place
+    size: int
+    floor: tuple[float, ...]
+    ceiling: tuple[float, ...]
+
+    def run(self, frame: Frame) -> None:
+        packed = np.array(frame.values[self.target], dtype=float)
+        diagonal = [packed_index(self.size, i, i) for i in range(self.size)]
+        before = frame.values.get(Place("memory", self.target.name))
+        for i, (low, high) in enumerate(zip(self.floor, self.ceiling, strict=True)):
+            natural = float(before[diagonal[i]]) if before is not None else None
+            frame.near(float(packed[diagonal[i]]), 0.0, natural)
+            frame.near(float(packed[diagonal[i]]), low)
+            frame.near(float(packed[diagonal[i]]), high)
+        if not all(packed[item] > 0 for item in diagonal):
+            raise Refused(Status.NOT_POSITIVE)
+        with np.errstate(all="ignore"):
+            for i, (low, high) in enumerate(zip(self.floor, self.ceiling, strict=True)):
+                value = packed[diagonal[i]]
+                if value > high:
+                    factor = np.sqrt(high / value)
+                    for j in range(self.size):
+                        if j != i:
+                            packed[packed_index(self.size, i, j)] *= factor
+                    packed[diagonal[i]] = high
+                    frame.raise_to(Status.CLAMPED)
+                elif value < low:
+                    packed[diagonal[i]] = low
+                    frame.raise_to(Status.CLAMPED)
+        frame.values[self.target] = packed
+
+
+@dataclass(frozen=True)
+class Call:
+    """Run another entry on the current memory.
+
+    Attributes
+    ----------
+    entry : str
+        Its name.
+    arguments : dict as tuple of (input name, place or number)
+        What its inputs are.
+    outputs : str
+        Prefix in this entry's outputs or locals that takes its outputs; empty drops them.
+    part : str
+        Part of a composition; empty for an entry of the same block.
+    """
+
+    entry: str
+    arguments: tuple[tuple[str, Place | float], ...]
+    outputs: Place | None = None
+    part: str = ""
+
+    def run(self, frame: Frame) -> None:
+        block = frame.block.parts[self.part] if self.part else frame.block
+        entry = block.entries[self.entry]
+        prefix = f"{self.part}." if self.part else ""
+        values: dict[Place, Array] = {}
+        source: Space = "memory" if self.part else "next"
+        if not entry.checks_params:
+            for signal in block.memory_signals_flat():
+                values[Place("memory", signal.name)] = frame.values[Place(source, prefix + signal.name)]
+        for name, argument in self.arguments:
+            given = frame.values[argument] if isinstance(argument, Place) else np.array([argument])
+            values[Place("in", name)] = given
+        params = {
+            name.removeprefix(prefix): value for name, value in frame.params.items() if name.startswith(prefix)
+        }
+        outcome = run_entry(block, entry, values, params, frame.patches)
+        frame.margin = min(frame.margin, outcome.margin)
+        if outcome.status < 0:
+            raise Refused(outcome.status)
+        for place, value in outcome.values.items():
+            if place.space == "next":
+                frame.values[Place("next", prefix + place.name)] = value
+            elif place.space == "out" and self.outputs is not None:
+                frame.values[Place(self.outputs.space, f"{self.outputs.name}.{place.name}")] = value
+        frame.raise_to(outcome.status)
+        frame.values[Place("local", "last_status")] = np.array([outcome.status])
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """Run calls as one transaction: if one is refused, the memory is as before, and `on_refused` runs."""
+
+    calls: tuple[Call, ...]
+    status: Place
+    accepted: tuple[Statement, ...]
+    on_refused: tuple[Statement, ...]
+
+    def run(self, frame: Frame) -> None:
+        saved = frame.memory_spaces("next")
+        status_before = frame.status
+        try:
+            for call in self.calls:
+                call.run(frame)
+            own = frame.values[Place("local", "last_status")]
+            frame.values[self.status] = np.array(own, dtype=np.int32)
+            for statement in self.accepted:
+                statement.run(frame)
+        except Refused as refusal:
+            for name, value in saved.items():
+                frame.values[Place("next", name)] = value
+            frame.status = status_before
+            frame.values[self.status] = np.array([refusal.status], dtype=np.int32)
+            for statement in self.on_refused:
+                statement.run(frame)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A map (memory, inputs, parameters) -> (memory, outputs, status).
+
+    Attributes
+    ----------
+    name : str
+        Name of the C function, after the block's.
+    inputs, outputs : tuple of Signal
+        Fields of its structs; a group is a nested struct, filled by a Call.
+    body : tuple of Statement
+        The program. Input ranges are judged before it.
+    hidden : tuple of (Signal, Place)
+        Inputs that only callers inside the block set; elsewhere they are read from the place.
+    checks_params : bool
+        Whether it judges the parameters' ranges (`init` does).
+    """
+
+    name: str
+    inputs: tuple[Signal, ...]
+    outputs: tuple[Signal, ...]
+    body: tuple[Statement, ...]
+    doc: str = ""
+    hidden: tuple[tuple[Signal, Place], ...] = ()
+    checks_params: bool = False
+
+
+@dataclass
+class Outcome:
+    """What running an entry gave; `values` holds the candidate memory and the outputs if it was not refused."""
+
+    status: Status
+    values: dict[Place, Array]
+    margin: float
+
+
+def run_entry(
+    block: Block,
+    entry: Entry,
+    values: dict[Place, Array],
+    params: dict[str, Array],
+    patches: dict[str, Any] | None = None,
+) -> Outcome:
+    """Run an entry: compute, judge; the caller commits.
+
+    Parameters
+    ----------
+    block : Block
+        Owner of the entry.
+    entry : Entry
+        What to run.
+    values : dict
+        Arrays of the places ``memory`` and ``in``.
+    params : dict
+        Parameter name -> array.
+    patches : dict, optional
+        CasADi functions to use instead of those of the same name: for tests that plant a fault.
+    """
+    frame = Frame(block, dict(values), params, patches=patches or {})
+    for name, value in params.items():
+        frame.values[Place("param", name)] = value
+    for signal, place in entry.hidden:
+        frame.values.setdefault(Place("in", signal.name), frame.values[place])
+    try:
+        if not block.judge_inputs(entry).holds(frame):
+            raise Refused(Status.BAD_INPUT)
+        if entry.checks_params and not block.judge_params().holds(frame):
+            raise Refused(Status.BAD_PARAM)
+        for signal in block.memory_signals_flat():
+            place = Place("memory", signal.name)
+            if place in frame.values:
+                frame.values[Place("next", signal.name)] = frame.values[place].copy()
+        for statement in entry.body:
+            statement.run(frame)
+    except Refused as refusal:
+        return Outcome(refusal.status, {}, frame.margin)
+    kept = {place: value for place, value in frame.values.items() if place.space in ("next", "out")}
+    return Outcome(frame.status, kept, frame.margin)
+
+
+def walk(statements: Sequence[Statement]) -> Iterator[Statement]:
+    """Yield every statement, those inside others too."""
+    for statement in statements:
+        yield statement
+        if isinstance(statement, When):
+            yield from walk(statement.then)
+            yield from walk(statement.otherwise)
+        elif isinstance(statement, Attempt):
+            yield from statement.calls
+            yield from walk(statement.accepted)
+            yield from walk(statement.on_refused)
+
+
+def packed_index(size: int, i: int, j: int) -> int:
+    """Return where element (i, j) of a symmetric matrix stands in its upper triangle, packed by rows."""
+    if i > j:
+        i, j = j, i
+    return i * size - i * (i - 1) // 2 + (j - i)
+
+
+def packed_size(size: int) -> int:
+    """Return the number of elements of a packed upper triangle."""
+    return size * (size + 1) // 2
+
+
+def unpack_symmetric(packed: Array, size: int) -> Array:
+    """Return the full symmetric matrix of a packed upper triangle."""
+    full = np.zeros((size, size), dtype=packed.dtype)
+    full[np.triu_indices(size)] = packed
+    return full + np.triu(full, 1).T
+
+
+def pack_symmetric(full: Array) -> Array:
+    """Return the upper triangle of a matrix, packed by rows."""
+    return np.asarray(full)[np.triu_indices(len(full))]
