@@ -34,7 +34,8 @@ class Precision:
     def literal(self, value: float) -> str:
         """Return the shortest literal that reads back as `value` in this precision."""
         if self.is_float:
-            single = np.float32(value)
+            with np.errstate(over="ignore"):
+                single = np.float32(value)
             if not np.isfinite(single):
                 raise ValueError(f"{value!r} does not fit into single precision")
             text = np.format_float_scientific(single, unique=True, trim="0")

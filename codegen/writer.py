@@ -519,7 +519,7 @@ class CoreWriter:
                     self.names[0].add(place.name)
                 for i, node in enumerate(answer):
                     if node is not None:
-                        pending[place, i] = node
+                        pending[place, i] = self.graph.const(node) if isinstance(node, float) else node
             comments += kernel.comment
         self._line("")
         for line in comments:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import sys
 import time
-from collections.abc import Callable
+import traceback
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -39,7 +40,7 @@ class Session:
 
     def __init__(self, as_json: bool, debug: bool):
         self.as_json, self.debug = as_json, debug
-        self.console = Console(stderr=True, highlight=False, soft_wrap=True)
+        self.console = Console(stderr=True, highlight=False, soft_wrap=True, emoji=False)
 
     def say(self, text: str) -> None:
         """Print a message, to standard error."""
@@ -56,21 +57,15 @@ class Session:
         """Run a command; whatever goes wrong becomes one sentence and an exit status."""
         try:
             body()
-        except (UsageError, ModelError, DesignError, CompilerError, FileNotFoundError, PermissionError) as error:
-            if self.debug:
-                raise
-            self.finish({"error": str(error)}, f"error: {error}", USER_MUST_MEND)
-        except ExportError as error:
-            if self.debug:
-                raise
-            checks = [result.as_dict() for result in error.check.results]
-            self.finish({"error": str(error), "checks": checks}, f"failed: {error}", CHECK_FAILED)
         except KeyboardInterrupt:
-            self.finish({"error": "interrupted"}, "interrupted: nothing was written", USER_MUST_MEND)
+            self.finish({"error": "interrupted"}, "interrupted: what was being written is as it was", USER_MUST_MEND)
         except Exception as error:
             if self.debug:
-                raise
-            text = f"plantc itself failed ({type(error).__name__}: {error}); run again with --debug and report it"
+                traceback.print_exc()
+            if isinstance(error, ExportError):
+                checks = [result.as_dict() for result in error.check.results]
+                self.finish({"error": str(error), "checks": checks}, f"failed: {error}", CHECK_FAILED)
+            text = _sentence(error)
             self.finish({"error": text}, f"error: {text}", USER_MUST_MEND)
         raise AssertionError("a command ends by finish")
 
@@ -78,6 +73,32 @@ class Session:
         """Return a progress display; silent where the output is no terminal."""
         columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"), TimeElapsedColumn())
         return Progress(*columns, console=self.console, transient=True, disable=not self.console.is_terminal)
+
+
+def _sentence(error: Exception) -> str:
+    """Return what the user reads of an error that stops a command."""
+    if isinstance(error, (UsageError, ModelError, DesignError, CompilerError)):
+        return str(error)
+    if isinstance(error, OSError):
+        return f"{error.filename}: {error.strerror}" if error.filename and error.strerror else str(error)
+    return f"plantc itself failed ({type(error).__name__}: {error}); run again with --debug and report it"
+
+
+class _Commands(click.Group):
+    """The group of commands; a wrong command line is told like any other mistake, as JSON too."""
+
+    def main(self, args: Sequence[str] | None = None, *rest: Any, **extra: Any) -> Any:
+        given = list(sys.argv[1:] if args is None else args)
+        if not given:
+            given = ["--help"]
+        extra["standalone_mode"] = False
+        try:
+            sys.exit(super().main(given, *rest, **extra))
+        except click.ClickException as error:
+            text = error.format_message()
+            Session("--json" in given, False).finish({"error": text}, f"error: {text}", USER_MUST_MEND)
+        except click.Abort:
+            Session("--json" in given, False).finish({"error": "interrupted"}, "interrupted", USER_MUST_MEND)
 
 
 def _common(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -89,7 +110,7 @@ def _common(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(generator_version(), prog_name="plantc")
 def main() -> None:
     """Compile plants: a symbolic model in Python in, verified standalone C99 out.

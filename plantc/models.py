@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import linecache
 import runpy
 import sys
@@ -37,19 +38,20 @@ def load(model: str) -> tuple[dict[str, Any], str, Path]:
     linecache.checkcache()
     sys.path.insert(0, str(path.resolve().parent))
     try:
-        names = runpy.run_path(str(path))
-    except Exception as error:
+        with contextlib.redirect_stdout(sys.stderr):  # what a model prints is a message, never part of the JSON
+            names = runpy.run_path(str(path))
+    except (Exception, SystemExit) as error:
         raise UsageError(_where(path, error)) from error
     finally:
         sys.path.pop(0)
     return names, name, path
 
 
-def _where(path: Path, error: Exception) -> str:
+def _where(path: Path, error: BaseException) -> str:
     """Return file and line of an exception in a model, and what it says."""
     line = 0
     for frame in traceback.extract_tb(error.__traceback__):
-        if Path(frame.filename).name == path.name:
+        if Path(frame.filename).resolve() == path.resolve():
             line = frame.lineno or 0
     if isinstance(error, SyntaxError):
         line = error.lineno or 0

@@ -313,7 +313,7 @@ class _Filter:
         """
         P = (P + P.T) / 2
         variances = np.diag(P)
-        if not np.all(variances > 0):
+        if not np.all(variances >= 0):
             raise _Refused(Status.NOT_POSITIVE)
         above, below = variances > self.ceiling, variances < self.floor
         scale = np.where(above, np.sqrt(self.ceiling / variances), self.precision(1))

@@ -246,7 +246,8 @@ class Block:
         used = [*self.param_symbols(), *self.memory_symbols(), *inputs]
         conditions = [self._expression(value, 1) for value, _ in guards]
         function = ca.Function(
-            f"{self.name}_{name}", used, [ca.densify(item) for item in [*conditions, *update.values(), *answers.values()]]
+            f"{self.name}_{name}", used, [ca.densify(item) for item in [*conditions, *update.values(), *answers.values()]],
+            {"allow_free": True},
         )
         if function.get_free():
             raise ModelError(f"{self.name}: the entry {name!r} uses {function.get_free()}, which it does not take; list them")
@@ -407,8 +408,12 @@ class Block:
             for entry in block.entries.values():
                 digest.update(f"{entry.name}{entry.inputs}{entry.outputs}{entry.doc}".encode())
                 for statement in walk(entry.body):
+                    digest.update(type(statement).__name__.encode())
                     if isinstance(statement, Evaluate):
-                        digest.update(repr(tape(statement.function).steps).encode())
+                        record = tape(statement.function)
+                        digest.update(f"{record.steps}{record.outputs}{statement.writes}".encode())
+                    elif isinstance(statement, Refuse):
+                        digest.update(f"{statement.status.name}{statement.unless}".encode())
             for name, part in block.parts.items():
                 digest.update(name.encode())
                 feed(part)

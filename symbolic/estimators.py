@@ -514,6 +514,11 @@ class _Builder:
                 f"{plant.name}: a row of the sensor {sensor.signal.name!r} has no noise at all; give variance=, or let a noise "
                 "enter each row"
             )
+        for i in range(size):
+            if H[i, :].nnz() == 0:
+                raise ModelError(
+                    f"{plant.name}: row {i} of the sensor {sensor.signal.name!r} does not depend on the state; leave it out"
+                )
         everything = ca.vertcat(h, ca.vec(ca.densify(R)))
         inputs = tuple(symbol for symbol in plant.inputs if ca.depends_on(everything, symbol))
         return _Measurement(sensor, inputs, h, residual, H, R)
@@ -547,7 +552,7 @@ class _Builder:
     ) -> Evaluate:
         arguments = [symbol for symbols, _ in reads for symbol in symbols]
         places = [place for _, group in reads for place in group]
-        function = ca.Function(f"{self.block.name}_{name}", arguments, [ca.densify(value) for value, _, _ in outputs])
+        function = ca.Function(f"{self.block.name}_{name}", arguments, [ca.densify(value) for value, _, _ in outputs], {"allow_free": True})
         if function.get_free():
             raise ModelError(f"{self.plant.name}: {name} uses {function.get_free()}, which it does not take")
         return Evaluate(

@@ -21,10 +21,16 @@ SMALLEST_VARIANCE = 1.0e-20
 
 
 def _total(terms: list[Any]) -> Any:
-    answer = terms[0]
-    for term in terms[1:]:
-        answer = answer + term
+    """Return the sum of terms, those that are structurally zero (None) left out; None if none is left."""
+    answer = None
+    for term in terms:
+        if term is not None:
+            answer = term if answer is None else answer + term
     return answer
+
+
+def _product(first: Any, second: Any) -> Any:
+    return None if first is None or second is None else first * second
 
 
 def _packed_names(size: int) -> tuple[str, ...]:
@@ -82,15 +88,14 @@ class Congruence(Kernel):
         def half(i: int, k: int) -> Any:
             if (i, k) not in product:
                 product[i, k] = _total([value * p[packed_index(self.size, j, k)] for j, value in rows[i]])
-            return product[i, k]
+            return product[i, k]  # None where row i of F is empty
 
         answer = []
         for i in range(self.size):
             for j in range(i, self.size):
-                value = _total([coefficient * half(i, k) for k, coefficient in rows[j]])
-                if (i, j) in noise:
-                    value = value + noise[i, j]
-                answer.append(value)
+                value = _total([_product(coefficient, half(i, k)) for k, coefficient in rows[j]])
+                value = _total([value, noise.get((i, j))])
+                answer.append(0.0 if value is None else value)
         return [answer]
 
     def dense(self, *values: Array) -> list[Array]:

@@ -350,7 +350,7 @@ class CountUp:
 class HoldVariances:
     """Keep the diagonal of a packed symmetric matrix between floors and ceilings.
 
-    An element not above zero is refused (NOT_POSITIVE). Above its ceiling c, row and column are scaled by
+    A negative element, or NaN, is refused (NOT_POSITIVE). Above its ceiling c, row and column are scaled by
     sqrt(c / P_ii), which keeps the matrix definite; below its floor the floor is stored (CLAMPED).
     """
 
@@ -368,7 +368,7 @@ class HoldVariances:
             frame.near(float(packed[diagonal[i]]), 0.0, natural)
             frame.near(float(packed[diagonal[i]]), low)
             frame.near(float(packed[diagonal[i]]), high)
-        if not all(packed[item] > 0 for item in diagonal):
+        if not all(packed[item] >= 0 for item in diagonal):
             raise Refused(Status.NOT_POSITIVE)
         with np.errstate(all="ignore"):
             for i, (low, high) in enumerate(zip(self.floor, self.ceiling, strict=True)):

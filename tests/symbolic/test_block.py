@@ -141,7 +141,6 @@ def test_mistakes():
         block.memory("y", initial=2.0, range=(0, 1))
 
 
-@pytest.mark.xfail(strict=True, reason="symbolic/block.py: CasADi refuses free symbols before get_free() is asked")
 def test_a_symbol_that_an_entry_does_not_take():
     block = Block("mine")
     u, x = block.input("u"), block.memory("x")
@@ -163,7 +162,7 @@ def test_names_that_meet():
         block.entry("step")
 
 
-# -- the hash ---------------------------------------------------------------------------------------------------------------
+# -- the hash ---------------------------------------------------------------------------------------------------------
 
 
 def sample_hashes():
@@ -191,12 +190,10 @@ def test_the_hash_says_what_changed():
     assert low_pass(doc="other").model_hash() != low_pass().model_hash()
 
 
-@pytest.mark.xfail(strict=True, reason="symbolic/block.py: model_hash leaves statuses out")
 def test_the_hash_knows_the_status_of_a_guard():
     assert low_pass(status=Status.OVERFLOW).model_hash() != low_pass().model_hash()
 
 
-@pytest.mark.xfail(strict=True, reason="symbolic/block.py: model_hash feeds the steps of a tape, not which are its outputs")
 def test_the_hash_knows_which_output_is_which():
     def block(swapped):
         made = Block("two")

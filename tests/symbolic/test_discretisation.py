@@ -1,4 +1,6 @@
-"""From continuous dynamics to one step: beside SciPy, python-control, an adaptive integrator, and the published numbers."""
+"""From continuous dynamics to one step: beside SciPy, python-control and the published numbers."""
+
+import itertools
 
 import casadi as ca
 import control
@@ -53,11 +55,13 @@ def swing_rates(t, s, push=0.4):
 A2 = np.array([[0.0, 1.0], [-4.0, -0.5]])
 B2 = np.array([[0.0, 0.3], [2.0, 1.0]])
 MATRICES = st.integers(1, 4).flatmap(
-    lambda n: st.lists(st.floats(-3, 3), min_size=n * n, max_size=n * n).map(lambda v: np.round(np.array(v).reshape(n, n), 3))
+    lambda n: st.lists(st.floats(-3, 3), min_size=n * n, max_size=n * n).map(
+        lambda v: np.round(np.array(v).reshape(n, n), 3)
+    )
 )
 
 
-# -- linear plants --------------------------------------------------------------------------------------------------------
+# -- linear plants ----------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("method", "theirs"), [("exact", "zoh"), ("tustin", "bilinear"), ("euler", "euler")])
@@ -88,7 +92,9 @@ def test_a_constant_drive_is_held_too():
     plant = Plant("fall")
     z, v = plant.state("z"), plant.state("v")
     plant.dynamics({z: v, v: -9.81})
-    np.testing.assert_allclose(following(plant.discretise("exact", dt=0.5), [10, 1]), [10 + 0.5 - 9.81 / 8, 1 - 9.81 / 2])
+    np.testing.assert_allclose(
+        following(plant.discretise("exact", dt=0.5), [10, 1]), [10 + 0.5 - 9.81 / 8, 1 - 9.81 / 2]
+    )
 
 
 def test_exact_with_dt_as_input_for_a_chain():
@@ -138,7 +144,7 @@ def test_what_exact_and_tustin_cannot_do():
         transition(discrete)
 
 
-# -- nonlinear plants -------------------------------------------------------------------------------------------------------
+# -- nonlinear plants -------------------------------------------------------------------------------------------------
 
 
 def slope_of(errors):
@@ -185,7 +191,7 @@ def test_angles_are_wrapped():
     assert evaluate(d, [3.0], [3.0])[1].item() == 1.0
 
 
-# -- attitudes --------------------------------------------------------------------------------------------------------------
+# -- attitudes --------------------------------------------------------------------------------------------------------
 
 
 def tumbling():
@@ -252,7 +258,7 @@ def test_a_constant_rate_is_turned_exactly():
         np.testing.assert_allclose(F, Rotation.from_rotvec([-0.15, 1.0, -0.5]).as_matrix(), atol=1e-13)
 
 
-# -- Jacobians ----------------------------------------------------------------------------------------------------------------
+# -- Jacobians --------------------------------------------------------------------------------------------------------
 
 
 def plus(plant, x, error):
@@ -307,7 +313,7 @@ def test_a_wrong_jacobian_is_seen():
     assert np.max(np.abs(wrong - differences(d, start, PULL))) > 1e-3
 
 
-# -- noise --------------------------------------------------------------------------------------------------------------------
+# -- noise ------------------------------------------------------------------------------------------------------------
 
 
 def noisy(A, G, S):
@@ -394,7 +400,7 @@ def test_a_longer_gap_is_never_more_certain():
     plant = noisy(np.array([[0.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [1.0]]), np.eye(1))
     d = plant.discretise("euler", dt=(1e-3, 100))
     Q = [evaluate(d, [0, 0], (), dt, what=(process_covariance(d, ca.SX(1.0)),))[0] for dt in (0.1, 1.0, 10.0)]
-    for short, long in zip(Q, Q[1:], strict=False):
+    for short, long in itertools.pairwise(Q):
         assert np.linalg.eigvalsh(long - short)[0] > 0
     np.testing.assert_allclose(Q[1], [[1 / 3, 1 / 2], [1 / 2, 1]], rtol=1e-14)
 
@@ -419,7 +425,7 @@ def test_the_error_of_an_attitude_turns_with_the_body():
     np.testing.assert_allclose(Q, expected, rtol=1e-12)
 
 
-# -- the published quadrotor ------------------------------------------------------------------------------------------------
+# -- the published quadrotor ------------------------------------------------------------------------------------------
 
 
 def test_the_check_point_of_the_quadrotor():

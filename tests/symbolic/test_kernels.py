@@ -102,7 +102,7 @@ def close(found, expected, scale=None, tolerance=1e-9):
         np.testing.assert_allclose(np.asarray(a)[known], np.asarray(b)[known], rtol=0, atol=tolerance * size)
 
 
-# -- packed matrices --------------------------------------------------------------------------------------------------------
+# -- packed matrices --------------------------------------------------------------------------------------------------
 
 
 @given(n=SIZES)
@@ -117,7 +117,7 @@ def test_packing(n):
             assert packed[packed_index(n, i, j)] == full[i, j]
 
 
-# -- congruence -------------------------------------------------------------------------------------------------------------
+# -- congruence -------------------------------------------------------------------------------------------------------
 
 
 @FEW
@@ -154,7 +154,7 @@ class Flipped(RowUpdate):
         return answers
 
 
-# -- measurement rows -------------------------------------------------------------------------------------------------------
+# -- measurement rows -------------------------------------------------------------------------------------------------
 
 
 def rows_of(kind, n, m, h_pattern, single=()):
@@ -227,7 +227,9 @@ def test_the_single_form_where_it_does_not_hold_is_seen():
     P = covariance(np.random.default_rng(3), 3, 1.0)
     kernel = rows_of(RowUpdate, 3, 1, ((0, 0),), single=(0,))[0]
     with pytest.raises(AssertionError):
-        close(scalar(kernel, [0.5], [2.0], [0.3], pack_symmetric(P)), kernel.dense([0.5], [2.0], [0.3], pack_symmetric(P)))
+        close(
+            scalar(kernel, [0.5], [2.0], [0.3], pack_symmetric(P)), kernel.dense([0.5], [2.0], [0.3], pack_symmetric(P))
+        )
 
 
 def test_a_planted_fault_in_a_row_update_is_seen():
@@ -236,7 +238,9 @@ def test_a_planted_fault_in_a_row_update_is_seen():
     packed = pack_symmetric(covariance(random, 3, 1.0))
     for kind, fails in ((RowUpdate, False), (Flipped, True)):
         found = chain(rows_of(kind, 3, 2, pattern), [0.3, -1], h, [1.0, 0.5], packed, scalar)
-        expected = chain(rows_of(RowUpdate, 3, 2, pattern), np.array([0.3, -1]), h, np.array([1.0, 0.5]), packed, run_dense)
+        expected = chain(
+            rows_of(RowUpdate, 3, 2, pattern), np.array([0.3, -1]), h, np.array([1.0, 0.5]), packed, run_dense
+        )
         if fails:
             with pytest.raises(AssertionError):
                 close(found, expected)
@@ -252,7 +256,7 @@ def test_a_vanishing_innovation_variance_is_not_divided_by():
         assert all(np.all(np.isfinite(item)) for item in answers)
 
 
-# -- innovation variance, factorisation -----------------------------------------------------------------------------------
+# -- innovation variance, factorisation -------------------------------------------------------------------------------
 
 
 @FEW

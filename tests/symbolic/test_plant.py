@@ -33,7 +33,6 @@ def symbol(plant, name):
     return next(state.symbol for state in plant.states if state.signal.name == name)
 
 
-
 # -- declarations -----------------------------------------------------------------------------------------------------
 
 
@@ -334,7 +333,7 @@ def test_what_a_sensor_keeps(cart):
     assert own.variance_expression.shape == (2, 2)
 
 
-# -- names that meet in the generated C ---------------------------------------------------------------------------------
+# -- names that meet in the generated C -------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", ["variance_encoder", "gate_encoder", "pos_0", "variance_pos_0", "reject_limit"])
@@ -405,7 +404,7 @@ def test_noise_per_step(moving):
     assert moving.step_variances == {}
 
 
-# -- from elsewhere -----------------------------------------------------------------------------------------------------
+# -- from elsewhere ---------------------------------------------------------------------------------------------------
 
 
 class Black(ca.Callback):
@@ -490,7 +489,9 @@ def test_state_space_round_trip_keeps_names_and_matrices(dt):
 
 
 def test_state_space_with_default_labels():
-    plant = Plant.from_state_space("cart", control.ss(np.eye(2), np.eye(2), np.eye(2), 0), variance={"y[0]": 1, "y[1]": 2})
+    plant = Plant.from_state_space(
+        "cart", control.ss(np.eye(2), np.eye(2), np.eye(2), 0), variance={"y[0]": 1, "y[1]": 2}
+    )
     assert [state.signal.name for state in plant.states] == ["x_0", "x_1"]
     assert [float(sensor.strength[0, 0]) for sensor in plant.sensors] == [1.0, 2.0]
 
@@ -506,11 +507,18 @@ def test_state_space_mistakes():
         Plant.from_state_space("cart", control.tf([1], [1, 1]))
 
 
-# -- identity -----------------------------------------------------------------------------------------------------------
+# -- identity ---------------------------------------------------------------------------------------------------------
 
 
 def described(**changes):
-    values = {"gain": 2.0, "variance": lambda z: z**2 + 1, "doc": "", "noise": 1.0, "unit": "m", "constant": 3.0} | changes
+    values = {
+        "gain": 2.0,
+        "variance": lambda z: z**2 + 1,
+        "doc": "",
+        "noise": 1.0,
+        "unit": "m",
+        "constant": 3.0,
+    } | changes
     plant = Plant("cart")
     x = plant.state("x", unit=values["unit"])
     c = plant.constant("c", values["constant"])

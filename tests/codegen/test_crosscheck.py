@@ -1,0 +1,191 @@
+"""The cross-check passes on what is right, and each planted fault is caught by a named check."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from plantc import Plant, extended_kalman_filter
+from plantc.codegen import crosscheck
+from plantc.codegen.crosscheck import cross_check, make_views
+from plantc.codegen.emit import emit
+from plantc.codegen.package import ExportError, export
+from plantc.codegen.views import NativeView, ReferenceView
+from plantc.symbolic import Block, sin
+from plantc.symbolic import estimators as estimators_module
+from plantc.symbolic.kernels import Congruence, RowUpdate
+
+
+def small_filter():
+    """A pendulum with two sensors, one a vector with correlated noise: every kernel is in it."""
+    plant = Plant("swing")
+    angle = plant.state("angle", unit="rad", angle=True)
+    rate = plant.state("rate", unit="rad/s", range=(-100, 100))
+    push = plant.input("push", unit="N m", range=(-5, 5))
+    gust = plant.noise("gust", density=0.01, unit="N m")
+    plant.dynamics({angle: rate, rate: push + gust - 4 * sin(angle)})
+    plant.sensor("encoder", angle, unit="rad", angle=True, variance=1e-3)
+    plant.sensor("pair", [2 * rate, rate + sin(angle)], variance=[[0.02, 0.005], [0.005, 0.01]], range=(-1000, 1000))
+    return extended_kalman_filter(
+        plant.discretise("rk4", dt=(1e-3, 0.05)), initial_variance={angle: 0.3, rate: 0.5}, gate={"encoder": 9.0}
+    )
+
+
+@pytest.fixture(scope="module")
+def block():
+    return small_filter()
+
+
+def failed(check):
+    return {result.name for result in check.failures}
+
+
+def test_all_views_agree_in_double(block):
+    check = cross_check(block, "double", steps=60)
+    assert check.passed, [str(item) for item in check.failures]
+    names = {result.name for result in check.results}
+    assert {"interpret = reference", "native = reference", "native = interpret", "a refused call changes nothing"} <= names
+    assert {"OK", "GATED", "BAD_INPUT", "BAD_PARAM", "SKIPPED", "RECOVERED", "CLAMPED", "NOT_POSITIVE", "OVERFLOW"} == set(
+        check.statuses
+    )
+
+
+def test_float_agrees_with_double_within_its_bound(block):
+    check = cross_check(block, "float", steps=60)
+    assert check.passed, [str(item) for item in check.failures]
+    result = next(item for item in check.results if item.name == "float = double")
+    assert 1e-8 < result.worst < 0.05  # it is float indeed, and near enough
+
+
+# -- planted faults -----------------------------------------------------------------------------------------------------
+
+
+def with_c(block, change, precision="double"):
+    text = emit(block, precision)
+    source = change(text.source)
+    assert source != text.source, "the fault was not planted"
+    return make_views(block, precision, NativeView(block, precision, text=dataclasses.replace(text, source=source)))
+
+
+def test_a_fault_in_the_emitter_is_caught(block):
+    views = with_c(block, lambda source: source.replace(" - (", " + (", 1))
+    check = cross_check(block, views=views, steps=40)
+    assert "native = reference" in failed(check)
+    mismatch = next(item for item in check.failures if item.name == "native = reference").mismatch
+    assert mismatch.left == "native"
+    assert mismatch.left_value != mismatch.right_value
+    assert mismatch.signal
+
+
+def test_a_commit_before_the_judgement_is_caught(block):
+    def early(source):
+        marker = "static swing_ekf_status_t swing_ekf_step_core"
+        head, tail = source.split(marker, 1)
+        old = "    if (status >= SWING_EKF_OK)\n    {\n        *state = after;\n    }"
+        assert old in tail
+        return head + marker + tail.replace(old, "    *state = after;")
+
+    views = with_c(block, early)
+    assert "a refused call changes nothing" in failed(cross_check(block, views=views, steps=30))
+
+
+def test_a_range_check_left_out_is_caught(block):
+    views = with_c(block, lambda source: source.replace("(fabs(push) <= 5.0) && ", "", 1))
+    assert "native = reference" in failed(cross_check(block, views=views, steps=30))
+
+
+def test_a_fault_in_a_jacobian_is_caught(monkeypatch):
+    original = estimators_module.transition
+
+    def wrong(plant):
+        following, F = original(plant)
+        return following, F * 1.0001
+
+    monkeypatch.setattr(estimators_module, "transition", wrong)
+    check = cross_check(small_filter(), steps=40)
+    assert {"F = complex step", "interpret = reference", "native = reference"} <= failed(check)
+
+
+def test_a_fault_in_a_kernel_is_caught(block, monkeypatch):
+    original = RowUpdate.scalar
+
+    def wrong(self, *values):
+        updated, *rest = original(self, *values)
+        updated[1] = -updated[1]
+        return [updated, *rest]
+
+    monkeypatch.setattr(RowUpdate, "scalar", wrong)
+    check = cross_check(block, views=make_views(block, "double"), steps=40)
+    assert {"native = reference", "native = interpret"} <= failed(check)
+    assert "interpret = reference" not in failed(check)
+
+
+def test_a_fault_in_the_dense_form_of_a_kernel_is_caught(block, monkeypatch):
+    monkeypatch.setattr(
+        Congruence, "dense", lambda self, *values: [np.asarray(values[1]).copy()]
+    )  # P stays as it was: no F, no Q
+    assert "interpret = reference" in failed(cross_check(block, steps=40))
+
+
+def test_a_fault_in_the_reference_is_caught(block, monkeypatch):
+    original = ReferenceView.call
+
+    def wrong(self, entry, memory, inputs, params):
+        answer = original(self, entry, memory, inputs, params)
+        if entry == "predict" and answer.status >= 0:
+            answer.memory["rate"] += 1e-6
+        return answer
+
+    monkeypatch.setattr(ReferenceView, "call", wrong)
+    check = cross_check(block, steps=60)
+    assert {"interpret = reference", "native = reference"} <= failed(check)
+    assert "native = interpret" not in failed(check)
+
+
+def test_a_float_that_is_too_coarse_is_caught(block):
+    views = with_c(block, lambda source: source.replace("delta[0] = ", "delta[0] = 1.3f * ", 1), "float")
+    assert "float = double" in failed(cross_check(block, "float", views=views, steps=60))
+
+
+def test_a_mismatch_fails_the_export_and_writes_nothing(block, tmp_path):
+    text = emit(block)
+    faulty = dataclasses.replace(text, source=text.source.replace(" - (", " + (", 1))
+    with pytest.raises(ExportError, match=r"native = \w+.*step \d+, entry \w+, memory|outputs|status"):
+        export(block, tmp_path, steps=30, native=NativeView(block, text=faulty))
+    assert list(tmp_path.iterdir()) == []
+
+
+# -- what is counted, not judged ----------------------------------------------------------------------------------------
+
+
+def test_a_block_without_an_oracle_says_so():
+    low_pass = Block("low_pass")
+    raw = low_pass.input("raw", range=(-10, 10))
+    smooth = low_pass.memory("smooth", range=(-20, 20))
+    low_pass.entry("step", inputs=[raw], following={smooth: 0.9 * smooth + 0.1 * raw}, outputs={"value": smooth})
+    check = cross_check(low_pass, steps=30)
+    assert check.passed
+    assert any("no independent reference" in result.note for result in check.results)
+
+
+def test_a_trace_that_is_refused_throughout_is_a_failure():
+    never = Block("never")
+    raw = never.input("raw", range=(0, 10))
+    kept = never.memory("kept", range=(-1, 1))
+    never.entry("step", inputs=[raw], following={kept: raw + 5})
+    assert "nominal calls are accepted" in failed(cross_check(never, steps=30))
+
+
+def test_too_many_calls_at_switches_are_a_failure(block, monkeypatch):
+    """Planted: were every status difference excused, a wrong gate would pass; the count stops it."""
+    monkeypatch.setitem(crosscheck.SWITCH_MARGIN, "double", 1e9)
+    views = with_c(block, lambda source: source.replace("(nis[0] <= gate)", "(nis[0] > gate)"))
+    check = cross_check(block, views=views, steps=100)
+    assert not check.passed
+
+
+def test_the_stream_of_the_traces_is_frozen():
+    stream = crosscheck.FrozenStream(0)
+    assert stream.normal() == pytest.approx(1.764052345967664, abs=0)
+    again = crosscheck.FrozenStream(0)
+    assert again.normal(size=3).tolist() == pytest.approx([1.764052345967664, 0.4001572083672233, 0.9787379841057392], abs=0)

@@ -1,0 +1,133 @@
+"""The text of the C: deterministic, narrow, warnings-clean, float to the last operation."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+from plantc.codegen.compiler import BASE_FLAGS, WARNINGS
+from plantc.codegen.emit import emit
+from plantc.examples.attitude_ekf import attitude_ekf
+from plantc.examples.pendulum import pendulum_ekf
+from plantc.examples.quadrotor_ekf import quadrotor_ekf, quadrotor_kf
+
+BLOCKS = {block.name: block for block in (pendulum_ekf, attitude_ekf, quadrotor_ekf, quadrotor_kf)}
+PRECISIONS = ("double", "float")
+
+
+def needs(tool):
+    """Return a tool's path; without it skip, but fail in CI."""
+    path = shutil.which(tool)
+    if path is None:
+        if os.environ.get("CI"):
+            pytest.fail(f"{tool} is missing in CI")
+        pytest.skip(f"{tool} is not installed")
+    return path
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+@pytest.mark.parametrize("name", BLOCKS)
+def test_lines_are_narrow_and_names_carry_the_prefix(name, precision):
+    text = emit(BLOCKS[name], precision)
+    for line in (text.header + text.source).split("\n"):
+        assert len(line) <= 120, line
+        assert line == line.rstrip()
+    functions = re.findall(r"^(?:static )?[a-z_0-9]+_t (\w+)\(|^static \w+ (\w+)\(", text.source, re.MULTILINE)
+    assert functions
+    assert all((first or second).startswith(f"{name}_") for first, second in functions)
+
+
+@pytest.mark.parametrize("name", BLOCKS)
+def test_float_text_holds_no_double(name):
+    source = re.sub(r"/\*.*?\*/", "", emit(BLOCKS[name], "float").source, flags=re.DOTALL)
+    assert "double" not in source
+    numbers = re.findall(r"(?<![\w.])\d+\.\d+(?:e-?\d+)?(\w?)", source)
+    assert numbers
+    assert set(numbers) == {"f"}
+    assert not re.findall(r"\b(?:sin|cos|sqrt|floor|fabs|tan|atan2|exp|log|pow)\(", source)
+
+
+def test_the_same_model_gives_the_same_bytes_in_any_process(tmp_path):
+    script = (
+        "import hashlib, sys\n"
+        "from plantc.codegen.emit import emit\n"
+        "from plantc.examples.attitude_ekf import attitude_ekf\n"
+        "from plantc.examples.quadrotor_ekf import quadrotor_ekf\n"
+        "if sys.argv[1] == '2':\n"
+        "    import casadi; junk = [casadi.SX.sym('junk') * k for k in range(1000)]\n"
+        "for block in (attitude_ekf, quadrotor_ekf) if sys.argv[1] != '3' else (quadrotor_ekf, attitude_ekf):\n"
+        "    text = emit(block, 'float')\n"
+        "    print(block.name, hashlib.sha256((text.header + text.source).encode()).hexdigest())\n"
+    )
+    answers = []
+    for seed in ("0", "1", "2", "3"):
+        folder = tmp_path / f"somewhere {seed}"
+        folder.mkdir()
+        environment = {**os.environ, "PYTHONHASHSEED": seed}
+        done = subprocess.run(
+            [sys.executable, "-c", script, seed], capture_output=True, text=True, check=True, cwd=folder, env=environment
+        )
+        answers.append(sorted(done.stdout.split("\n")))
+    assert answers[0] == answers[1] == answers[2] == answers[3]
+
+
+def test_the_text_names_no_path_user_or_time():
+    text = emit(pendulum_ekf)
+    everything = text.header + text.source
+    assert os.path.expanduser("~") not in everything
+    assert not re.search(r"\b20\d\d-\d\d", everything)
+
+
+@pytest.mark.parametrize("compiler", ["gcc", "clang"])
+@pytest.mark.parametrize("precision", PRECISIONS)
+@pytest.mark.parametrize("name", ["pendulum_ekf", "attitude_ekf"])
+def test_it_compiles_without_a_warning_as_c_and_the_header_as_cpp(name, precision, compiler, tmp_path):
+    path = needs(compiler)
+    text = emit(BLOCKS[name], precision)
+    (tmp_path / f"{name}.h").write_text(text.header)
+    (tmp_path / f"{name}.c").write_text(text.source)
+    flags = [*BASE_FLAGS, *WARNINGS, "-ffp-contract=off", "-Wstrict-prototypes", "-Wmissing-prototypes", "-c"]
+    done = subprocess.run([path, *flags, f"{name}.c"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    (tmp_path / "header.cpp").write_text(f'#include "{name}.h"\nint main() {{ {name}_state_t s; (void)s; return 0; }}\n')
+    cpp = ["-x", "c++", "-std=c++11", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only", "header.cpp"]
+    done = subprocess.run([path, *cpp], cwd=tmp_path, capture_output=True, text=True, check=False)
+    if "cc1plus" in done.stderr or "C++" in done.stderr and "unable" in done.stderr:
+        done = subprocess.run([needs("g++"), *cpp], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_the_object_has_no_globals_and_only_symbols_of_the_mathematical_library(precision, tmp_path):
+    gcc, nm, size = needs("gcc"), needs("nm"), needs("size")
+    text = emit(attitude_ekf, precision)
+    (tmp_path / "attitude_ekf.h").write_text(text.header)
+    (tmp_path / "attitude_ekf.c").write_text(text.source)
+    subprocess.run([gcc, *BASE_FLAGS, "-ffp-contract=off", "-c", "attitude_ekf.c"], cwd=tmp_path, check=True)
+    undefined = subprocess.run([nm, "-u", "attitude_ekf.o"], cwd=tmp_path, capture_output=True, text=True, check=True).stdout
+    names = {line.split()[-1] for line in undefined.split("\n") if line.strip()}
+    suffix = "f" if precision == "float" else ""
+    allowed = {f"{name}{suffix}" for name in ("sin", "cos", "sincos", "sqrt", "floor")} | {
+        f"sincos{suffix}", "memcpy", "memset", "_GLOBAL_OFFSET_TABLE_", "__stack_chk_fail",
+    }  # fmt: skip
+    assert names <= allowed, names - allowed
+    numbers = subprocess.run([size, "attitude_ekf.o"], cwd=tmp_path, capture_output=True, text=True, check=True).stdout
+    _, data, bss, *_ = numbers.split("\n")[1].split()
+    assert (data, bss) == ("0", "0")
+
+
+def test_the_quadrotor_step_has_twelve_divisions():
+    operations = emit(quadrotor_ekf).operations
+    assert operations["update_pose"]["division"] == 12
+    assert operations["predict"].get("division", 0) == 0
+
+
+def test_every_divide_in_a_shared_row_is_a_product():
+    """Planted: with one division for each gain, as CasADi prints them, there would be 144."""
+    source = emit(quadrotor_ekf).source
+    body = source[source.index("quadrotor_ekf_update_pose_core") :]
+    body = re.sub(r"/\*.*?\*/", "", body[: body.index("\n}\n")], flags=re.DOTALL)
+    assert body.count(" / ") == 12

@@ -1,0 +1,51 @@
+"""Literals round-trip and are short; lines are not long."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from plantc.codegen.style import WIDTH, Precision, comment_lines, wrap_line
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False))
+def test_a_double_literal_reads_back_exactly(value):
+    text = Precision("double").literal(value)
+    assert float(text) == value
+    assert "." in text
+    assert not text.endswith("f")
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False, width=32))
+def test_a_float_literal_reads_back_exactly_and_is_marked(value):
+    text = Precision("float").literal(value)
+    assert text.endswith("f")
+    assert np.float32(text[:-1]) == np.float32(value)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(1e-8, "1.0e-8"), (0.1, "0.1"), (9.81, "9.81"), (-2.5, "-2.5"), (1e9, "1.0e9"), (125.0, "125.0"), (0.0, "0.0")],
+)
+def test_literals_are_written_as_a_person_would(value, text):
+    assert Precision("double").literal(value) == text
+    assert Precision("float").literal(value) == text + "f"
+
+
+def test_what_does_not_fit_is_refused():
+    with pytest.raises(ValueError, match="single precision"):
+        Precision("float").literal(1e300)
+    with pytest.raises(ValueError, match="literal"):
+        Precision("double").literal(float("nan"))
+    with pytest.raises(ValueError, match="'half'"):
+        Precision("half")
+
+
+@given(st.lists(st.text("abc*/", min_size=1, max_size=30), min_size=1, max_size=60))
+def test_lines_and_comments_keep_to_the_width(words):
+    text = " ".join(words)
+    assert all(len(line) <= WIDTH for line in wrap_line(text, "    "))
+    comment = comment_lines(text, "    ")
+    assert all(len(line) <= WIDTH for line in comment)
+    inside = "\n".join(comment).strip().removeprefix("/*").removesuffix("*/")
+    assert "*/" not in inside
