@@ -41,7 +41,9 @@ class Compiler:
     def version(self) -> str:
         """Return the first line of what it says of itself."""
         try:
-            done = subprocess.run([*self.command, "--version"], capture_output=True, text=True, check=False, env=_environment())
+            done = subprocess.run(
+                [*self.command, "--version"], capture_output=True, text=True, check=False, env=_environment()
+            )
         except OSError:
             return "unknown"
         return (done.stdout or done.stderr).strip().split("\n")[0]
@@ -59,7 +61,9 @@ class Compiler:
                 [*self.command, *arguments], cwd=folder, capture_output=True, text=True, check=False, env=_environment()
             )
         except OSError as error:
-            raise CompilerError(f"the compiler {' '.join(self.command)!r} cannot be started ({error}); check $CC") from None
+            raise CompilerError(
+                f"the compiler {' '.join(self.command)!r} cannot be started ({error}); check $CC"
+            ) from None
         if done.returncode != 0:
             said = (done.stderr or done.stdout).strip()[:2000]
             raise CompilerError(f"{self.label} refused the generated C (a fault of plantc, please report it): {said}")
@@ -78,7 +82,10 @@ class Compiler:
         """
         flags = [*BASE_FLAGS, *WARNINGS, contraction_flag(contract), "-fPIC", "-shared"]
         folder = sources[0].parent
-        self.run([*flags, *[item.name for item in sources], "-o", str(target), *(["-lm"] if os.name == "posix" else [])], folder)
+        self.run(
+            [*flags, *[item.name for item in sources], "-o", str(target), *(["-lm"] if os.name == "posix" else [])],
+            folder,
+        )
         return target
 
     def program(self, sources: Sequence[Path], target: Path, *, contract: bool = False) -> Path:
@@ -165,7 +172,9 @@ def library_for(sources: dict[str, str], *, contract: bool = False) -> Path:
         for file, text in sources.items():
             (folder / file).write_text(text)
         built = folder / "library.so"
-        compiler.shared_library([folder / file for file in sorted(sources) if file.endswith(".c")], built, contract=contract)
+        compiler.shared_library(
+            [folder / file for file in sorted(sources) if file.endswith(".c")], built, contract=contract
+        )
         # another process may build the same: the rename is atomic, and either result will do
         partial = target.with_suffix(f".{os.getpid()}.tmp")
         shutil.copy(built, partial)

@@ -187,7 +187,11 @@ def _accepted(probes: list[Probe]) -> CheckResult:
     """A trace on which every call is refused compares nothing."""
     nominal = [probe for probe in probes if probe.trace == "nominal" and probe.answer is not None]
     good = sum(1 for probe in nominal if probe.answer is not None and probe.answer.status >= 0)
-    note = "" if good >= 0.5 * len(nominal) else f"only {good} of {len(nominal)} nominal calls were accepted; widen the ranges"
+    note = (
+        ""
+        if good >= 0.5 * len(nominal)
+        else f"only {good} of {len(nominal)} nominal calls were accepted; widen the ranges"
+    )
     return CheckResult("nominal calls are accepted", good >= 0.1 * len(nominal), calls=len(nominal), note=note)
 
 
@@ -276,13 +280,17 @@ def _adversarial(
         if entry.checks_params:
             for signal in (item for item in block.param_signals_flat() if item.kind is Kind.REAL):
                 for value in _bad_values(signal, native.precision.dtype)[0:6:5]:  # NaN, and just outside
-                    yield probe(name, native.memory(), native.inputs(name, {}), _with_element(params, signal, value, rng))
+                    yield probe(
+                        name, native.memory(), native.inputs(name, {}), _with_element(params, signal, value, rng)
+                    )
             continue
         for signal in block.memory_signals_flat():
             for value in _memory_extremes(signal):
                 source = sources[int(rng.integers(len(sources)))]
                 yield probe(name, _with_element(source.memory, signal, value, rng), source.inputs, params)
-        for signal in (item for item in block.param_signals_flat() if item.kind is Kind.REAL and "variance" in item.name):
+        for signal in (
+            item for item in block.param_signals_flat() if item.kind is Kind.REAL and "variance" in item.name
+        ):
             # no noise at all, and noise that makes the innovation variance negative: parameters that init would refuse
             for value in (0.0, -1.0e3):
                 source = sources[int(rng.integers(len(sources)))]
@@ -364,9 +372,7 @@ def _scaled_arrays(record: Record, block: Block, factor: float) -> Record:
 
 
 def _middle(native: View, entry: Entry) -> Record:
-    values = {
-        s.name: np.clip(np.zeros(s.size), s.low, s.high) for s in entry.inputs if s.kind is Kind.REAL
-    }
+    values = {s.name: np.clip(np.zeros(s.size), s.low, s.high) for s in entry.inputs if s.kind is Kind.REAL}
     flags = {s.name: True for s in entry.inputs if s.kind is Kind.FLAG}
     return native.inputs(entry.name, {**values, **flags})
 
@@ -492,7 +498,15 @@ class _Lockstep:
         return False
 
     def _pair(
-        self, name: str, probe: Probe, left: Answer, right: Answer, margin: float, limit: float, *, statuses: bool = True
+        self,
+        name: str,
+        probe: Probe,
+        left: Answer,
+        right: Answer,
+        margin: float,
+        limit: float,
+        *,
+        statuses: bool = True,
     ) -> None:
         result = self._result(name, limit)
         if statuses:
@@ -609,13 +623,17 @@ class _Lockstep:
         for result in self.pairs.values():
             if result.calls and result.at_switches > LARGEST_SHARE_AT_SWITCHES * result.calls:
                 result.passed = False
-                result.note = f"{result.at_switches} of {result.calls} calls differ in status near a switch, more than 5 %"
+                result.note = (
+                    f"{result.at_switches} of {result.calls} calls differ in status near a switch, more than 5 %"
+                )
             if result.calls and result.ill_conditioned > LARGEST_SHARE_AT_SWITCHES * result.calls:
                 result.passed = False
                 result.note = f"{result.ill_conditioned} of {result.calls} values are ill-conditioned, more than 5 %"
         names = list(self.pairs.values())
         if self.views.reference is None:
-            names.append(CheckResult("independent reference", True, note="no independent reference: the block brings no oracle"))
+            names.append(
+                CheckResult("independent reference", True, note="no independent reference: the block brings no oracle")
+            )
         return names
 
 

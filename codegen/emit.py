@@ -12,10 +12,12 @@ from typing import Any
 import jinja2
 
 from ..symbolic.block import Block
+from ..symbolic.kernels import AllStatesUpdate
 from ..symbolic.names import why_not_a_name
 from ..symbolic.program import Entry, HoldVariances, walk
 from ..symbolic.signals import STATUS_TEXT, Kind, Signal, Status
 from .layout import default_text, struct_lines
+from .rows import bounded_helper, pair_helpers
 from .style import WIDTH, Precision, comment_lines, wrap_line
 from .writer import CoreWriter, Style, core_name, has_outputs, is_sequenced, needs_params, style_for, wrap_signature
 
@@ -101,17 +103,23 @@ class _Emitter:
             "higher": "higher" in self.used,
             "math": any(item not in ("higher", "hold_variances") for item in self.used),
         }
-        header = templates().get_template("header.h.j2").render(
-            **context,
-            title=self._title(),
-            equations=self._equation_lines(),
-            notes=self.block.notes,
-            structs=self._structs(self.block, self.name),
-            default=self._default_macro(),
-            prototypes=self._prototypes(),
+        header = (
+            templates()
+            .get_template("header.h.j2")
+            .render(
+                **context,
+                title=self._title(),
+                equations=self._equation_lines(),
+                notes=self.block.notes,
+                structs=self._structs(self.block, self.name),
+                default=self._default_macro(),
+                prototypes=self._prototypes(),
+            )
         )
-        source = templates().get_template("source.c.j2").render(
-            **context, cores="\n".join(cores), publics="\n".join(publics)
+        source = (
+            templates()
+            .get_template("source.c.j2")
+            .render(**context, cores="\n".join(cores), publics="\n".join(publics))
         )
         return CText(self.name, self.precision, _tidy(header), _tidy(source), self.operations)
 
@@ -156,7 +164,9 @@ class _Emitter:
                 texts.append(self._struct(f"{prefix}_{entry.name}_in_t", entry.inputs, {}, ""))
             if entry.outputs:
                 texts.append(
-                    self._struct(f"{prefix}_{entry.name}_out_t", entry.outputs, self._out_types(block, entry, prefix), "")
+                    self._struct(
+                        f"{prefix}_{entry.name}_out_t", entry.outputs, self._out_types(block, entry, prefix), ""
+                    )
                 )
         return "\n".join(texts)
 
@@ -179,7 +189,9 @@ class _Emitter:
 
     def _struct(self, name: str, signals: Sequence[Signal], types: dict[str, str], comment: str) -> str:
         lines = [*(comment_lines(comment, "") if comment else []), "typedef struct", "{"]
-        lines += struct_lines(list(signals), self.precision, types) or ["    uint8_t unused;  /* nothing to remember */"]
+        lines += struct_lines(list(signals), self.precision, types) or [
+            "    uint8_t unused;  /* nothing to remember */"
+        ]
         lines += [f"}} {name};", ""]
         return "\n".join(lines)
 
@@ -224,10 +236,22 @@ class _Emitter:
         for name, part in block.parts.items():
             lines += self._cores(part, f"{prefix}_{name}")
         hold = next(
-            (item for entry in block.entries.values() for item in walk(entry.body) if isinstance(item, HoldVariances)), None
+            (item for entry in block.entries.values() for item in walk(entry.body) if isinstance(item, HoldVariances)),
+            None,
         )
         if hold is not None:
             lines += self._hold_variances(hold, prefix)
+        whole = next(
+            (
+                item
+                for entry in block.entries.values()
+                for item in walk(entry.body)
+                if isinstance(item, AllStatesUpdate)
+            ),
+            None,
+        )
+        if whole is not None:
+            lines += pair_helpers(prefix, self.precision, whole.rows[0].size)
         if block is not self.block:
             used = {"init", "step"}
             used |= {call.entry for item in walk(block.entries["step"].body) if (call := _call_of(item))}
@@ -272,9 +296,10 @@ class _Emitter:
 
     def _hold_variances(self, hold: HoldVariances, prefix: str) -> list[str]:
         """Write the rare path of `HoldVariances`: compact loops, called only when a variance left its bounds."""
-        self.used |= {"hold_variances", self.precision.function("sqrt")}
+        self.used |= {"hold_variances", self.precision.function("sqrt"), self.precision.function("fabs")}
         size = hold.size
-        same = len(set(hold.floor)) == 1 and len(set(hold.ceiling)) == 1
+        limits = hold.limits()
+        same = len(set(hold.floor)) == 1 and len(set(hold.ceiling)) == 1 and len(set(limits)) == 1
         context: dict[str, Any] = {
             "prefix": prefix,
             "root": self.name,
@@ -285,11 +310,15 @@ class _Emitter:
             "zero": self.precision.literal(0.0),
             "sqrt": self.precision.function("sqrt"),
             "same": same,
+            "fabs": self.precision.function("fabs"),
+            "limits": [self.precision.literal(item) for item in limits],
             "floors": [self.precision.literal(item) for item in hold.floor],
             "ceilings": [self.precision.literal(item) for item in hold.ceiling],
         }
         text = templates().get_template("hold_variances.c.j2").render(**context)
-        return text.rstrip("\n").split("\n")
+        return [
+            *text.rstrip("\n").split("\n"), *bounded_helper(prefix, self.precision, size, hold.floor, min(limits))
+        ]  # fmt: skip
 
 
 def _call_of(item: Any) -> Any:
@@ -311,7 +340,9 @@ def _operations_text(operations: Counter[str]) -> str:
     words = ("addition", "multiplication", "division", "negation", "selection")
     counted = [f"{operations[w]} {w}{'' if operations[w] == 1 else 's'}" for w in words if operations[w]]
     functions = [
-        name if count == 1 else f"{name} {count} times" for name, count in sorted(operations.items()) if name not in words
+        name if count == 1 else f"{name} {count} times"
+        for name, count in sorted(operations.items())
+        if name not in words
     ]
     return ", ".join(counted + functions) + "." if counted or functions else ""
 

@@ -48,7 +48,13 @@ class Node:
     __slots__ = ("arguments", "element", "graph", "hint", "number", "operation", "value")
 
     def __init__(
-        self, graph: Graph, operation: str, arguments: tuple[Node, ...], value: float, element: tuple[Any, ...], number: int
+        self,
+        graph: Graph,
+        operation: str,
+        arguments: tuple[Node, ...],
+        value: float,
+        element: tuple[Any, ...],
+        number: int,
     ):
         self.graph, self.operation, self.arguments = graph, operation, arguments
         self.value, self.element, self.number = value, element, number
@@ -224,9 +230,7 @@ class Graph:
                 case "fmax":
                     node = self.make("select", self.make("lt", items[1], items[0]), items[0], items[1])
                 case "and" | "or" | "not":
-                    truths = [
-                        item if item.is_boolean else self.make("ne", item, self.const(0.0)) for item in items
-                    ]
+                    truths = [item if item.is_boolean else self.make("ne", item, self.const(0.0)) for item in items]
                     node = self.make(step.operation, *truths)
                 case operation:
                     node = self.make(operation, *[self.as_number(item) for item in items])

@@ -104,7 +104,9 @@ def range_text(signal: Signal) -> str:
     return "; ".join(texts) + ("; ..." if len(pairs) > 3 else "")
 
 
-def struct_lines(signals: tuple[Signal, ...] | list[Signal], precision: Precision, types: Mapping[str, str]) -> list[str]:
+def struct_lines(
+    signals: tuple[Signal, ...] | list[Signal], precision: Precision, types: Mapping[str, str]
+) -> list[str]:
     """Return the fields of a struct, with unit, range and meaning in aligned comments.
 
     Parameters

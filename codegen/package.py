@@ -79,8 +79,10 @@ def build_files(block: Block, precision: str, check: CrossCheck) -> dict[str, st
     entry = block.entries["step"] if "step" in block.entries else list(block.entries.values())[-1]
     kind = Precision(precision)
     inputs = _middle_text(entry.inputs, kind)
-    main = templates().get_template("example_main.c.j2").render(
-        **context, entry=entry.name, inputs=inputs, outputs=bool(entry.outputs)
+    main = (
+        templates()
+        .get_template("example_main.c.j2")
+        .render(**context, entry=entry.name, inputs=inputs, outputs=bool(entry.outputs))
     )
     files = {
         f"{name}.h": text.header,
@@ -243,7 +245,9 @@ def read_manifest(folder: Path) -> dict[str, Any]:
     try:
         manifest = json.loads(path.read_text())
     except FileNotFoundError:
-        raise FileNotFoundError(f"{folder}: there is no manifest.json; give a folder that plantc export wrote") from None
+        raise FileNotFoundError(
+            f"{folder}: there is no manifest.json; give a folder that plantc export wrote"
+        ) from None
     except json.JSONDecodeError as error:
         raise FileNotFoundError(f"{path}: not readable as JSON ({error}); export again") from None
     if not isinstance(manifest, dict) or not {"name", "model", "precision", "files"} <= manifest.keys():
@@ -299,7 +303,10 @@ def _manifest(block: Block, precision: str, text: CText, files: dict[str, str], 
 
 def _evidence(block: Block, precision: str, check: CrossCheck, native: View) -> dict[str, Any]:
     compiler = find_compiler()
-    types = {"memory_bytes": native.memory().nbytes, "parameter_bytes": default_params(block, Precision(precision)).nbytes}
+    types = {
+        "memory_bytes": native.memory().nbytes,
+        "parameter_bytes": default_params(block, Precision(precision)).nbytes,
+    }
     return {
         "name": block.name,
         "model": block.model_hash(),
@@ -322,7 +329,9 @@ def _middle_text(signals: tuple[Signal, ...], precision: Precision) -> str:
         elif signal.kind is Kind.COUNT:
             items.append("0U")
         else:
-            values = [precision.literal(float(item)) for item in np.clip(np.zeros(signal.size), signal.low, signal.high)]
+            values = [
+                precision.literal(float(item)) for item in np.clip(np.zeros(signal.size), signal.low, signal.high)
+            ]
             items.append(values[0] if signal.size == 1 else "{" + ", ".join(values) + "}")
     return "{" + ", ".join(items) + "}" if items else ""
 

@@ -128,14 +128,19 @@ class Trace:
                 raise TraceError(f"{block.name}_{entry} has no input {name!r}; it has {', '.join(signals)}")
             labels = [given] if isinstance(given, str) else list(given)
             if len(labels) != signals[name].size:
-                raise TraceError(f"the input {name!r} has {signals[name].size} elements, {len(labels)} columns are named")
+                raise TraceError(
+                    f"the input {name!r} has {signals[name].size} elements, {len(labels)} columns are named"
+                )
             wanted[name] = [_column(header, label, path) for label in labels]
         clock = _column(header, time, path) if time else -1
         flags = {name for name, signal in signals.items() if signal.kind is Kind.FLAG}
         missing = [
             name
             for name, signal in signals.items()
-            if signal.kind is Kind.REAL and name not in wanted and f"has_{name}" not in flags and not (name == "dt" and time)
+            if signal.kind is Kind.REAL
+            and name not in wanted
+            and f"has_{name}" not in flags
+            and not (name == "dt" and time)
         ]
         if missing:
             raise TraceError(f"{path}: no column is named for the input(s) {', '.join(missing)}; add them to columns=")
@@ -176,7 +181,9 @@ def _read(path: Path) -> tuple[list[str], Any]:
                 if not row:
                     continue
                 if len(row) != len(header):
-                    raise TraceError(f"{path}, line {number}: {len(row)} cells for {len(header)} columns; mend the line")
+                    raise TraceError(
+                        f"{path}, line {number}: {len(row)} cells for {len(header)} columns; mend the line"
+                    )
                 try:
                     table.append([float(cell) if cell.strip() else float("nan") for cell in row])
                 except ValueError as error:

@@ -132,35 +132,46 @@ def vectors_source(block: Block, precision: str, check: CrossCheck) -> tuple[str
     for probe in check.calls:
         if probe.answer is None or (probe.entry, probe.answer.status.name) in seen:
             continue
-        clean = Probe("vectors", 0, probe.entry, table.rounded(probe.memory), table.rounded(probe.inputs), table.rounded(probe.params))
+        clean = Probe(
+            "vectors",
+            0,
+            probe.entry,
+            table.rounded(probe.memory),
+            table.rounded(probe.inputs),
+            table.rounded(probe.params),
+        )
         if not _is_sturdy(view, clean, probe.answer.status, sizes, precision):
             continue
         seen.add((probe.entry, probe.answer.status.name))
         _add(table, view, shape, clean)
-    text = templates().get_template("test_vectors.c.j2").render(
-        name=block.name,
-        upper=block.name.upper(),
-        version=generator_version(),
-        hash=block.model_hash(),
-        real=kind.name,
-        fabs=kind.function("fabs"),
-        tolerance=kind.literal(TOLERANCE[precision]),
-        zero=kind.literal(0.0),
-        two_pi=kind.literal(2 * np.pi),
-        memories=table.memories,
-        params=table.params if block.param_group().members else [],
-        entries=[
-            (
-                entry.name,
-                table.inputs[entry.name],
-                table.outputs[entry.name],
-                _comparisons(entry.outputs, "answer", "expected"),
-            )
-            for entry in block.entries.values()
-        ],
-        memory_comparisons=_comparisons(block.memory_group().members, "state", "wanted"),
-        scales=table.text(block.memory_group().members, table.rounded(sizes)),
-        vectors=table.vectors,
+    text = (
+        templates()
+        .get_template("test_vectors.c.j2")
+        .render(
+            name=block.name,
+            upper=block.name.upper(),
+            version=generator_version(),
+            hash=block.model_hash(),
+            real=kind.name,
+            fabs=kind.function("fabs"),
+            tolerance=kind.literal(TOLERANCE[precision]),
+            zero=kind.literal(0.0),
+            two_pi=kind.literal(2 * np.pi),
+            memories=table.memories,
+            params=table.params if block.param_group().members else [],
+            entries=[
+                (
+                    entry.name,
+                    table.inputs[entry.name],
+                    table.outputs[entry.name],
+                    _comparisons(entry.outputs, "answer", "expected"),
+                )
+                for entry in block.entries.values()
+            ],
+            memory_comparisons=_comparisons(block.memory_group().members, "state", "wanted"),
+            scales=table.text(block.memory_group().members, table.rounded(sizes)),
+            vectors=table.vectors,
+        )
     )
     return _wrapped(text), len(table.vectors)
 

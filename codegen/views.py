@@ -125,7 +125,9 @@ class View:
             answer = self.call(item.entry, state, inputs, given)
             state = answer.memory
             calls.append(
-                TraceCall(item.entry, item.inputs, answer.status, flatten(answer.memory), flatten(answer.outputs), item.time)
+                TraceCall(
+                    item.entry, item.inputs, answer.status, flatten(answer.memory), flatten(answer.outputs), item.time
+                )
             )
         return Trace(trace.name, calls)
 
@@ -215,9 +217,7 @@ class NativeView(View):
         super().__init__(block, precision)
         self.text = text or emit(block, precision)
         name = block.name
-        self.path: Path = library_for(
-            {f"{name}.h": self.text.header, f"{name}.c": self.text.source}, contract=contract
-        )
+        self.path: Path = library_for({f"{name}.h": self.text.header, f"{name}.c": self.text.source}, contract=contract)
         self.library = ctypes.CDLL(str(self.path))
         self._has_params = bool(block.param_group().members)
         self._functions: dict[str, Any] = {}

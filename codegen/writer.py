@@ -13,6 +13,7 @@ from typing import Any
 
 from ..symbolic.block import Block
 from ..symbolic.expressions import tape
+from ..symbolic.kernels import AllStatesUpdate, Scale
 from ..symbolic.program import (
     AllOf,
     AnyOf,
@@ -36,11 +37,11 @@ from ..symbolic.program import (
     Statement,
     When,
     Within,
-    packed_index,
     walk,
 )
 from ..symbolic.signals import Kind, Signal, Status
 from .graph import Graph, Node
+from .rows import pair_operations
 from .style import WIDTH, Precision, comment_lines, wrap_line
 
 _INFIX = {
@@ -49,6 +50,7 @@ _INFIX = {
 }  # fmt: skip
 _COUNTED = {"add": "addition", "sub": "addition", "mul": "multiplication", "div": "division", "neg": "negation"}
 _LONGEST_INLINE = 84
+_LONGEST_SCALE = 8
 
 Slot = tuple[Place, int]
 
@@ -108,6 +110,9 @@ class CoreWriter:
         self.bound: dict[Node, str] = {}
         self.fixed: dict[Place, list[Node]] = {}
         self.arrays: dict[Place, int] = {}
+        self.declared: list[str] = []
+        self.inside: dict[Place, str] = {}
+        self.arrays_inside: dict[Place, int] = {}
         self.versions: Counter[Place] = Counter()
         self.operations: Counter[str] = Counter()
         self.functions: set[str] = set()
@@ -161,12 +166,16 @@ class CoreWriter:
         self.lines = []
         for place, size in self.arrays.items():
             self._line(f"{self.precision.name} {place.name}[{size}];")
+        for text_of in self.declared:
+            self._line(text_of)
         self._line(f"{self.root}_status_t status = {u}_OK;")
         self._line("")
         for signal in untouched:
             self._copy_field(signal)
         if untouched:
             self._line("")
+        if not self.entry.checks_params and not any("before" in line for line in (*self.lines, *text)):
+            self._line("(void)before;")
         self.lines += text
         self._line("return status;")
 
@@ -182,7 +191,9 @@ class CoreWriter:
             if isinstance(statement, Call) and statement.part:
                 written.add(statement.part)
         parts = set(self.block.parts)
-        return [signal for signal in self.block.memory_group().members if signal.name not in written | (parts & written)]
+        return [
+            signal for signal in self.block.memory_group().members if signal.name not in written | (parts & written)
+        ]
 
     def _copy_field(self, signal: Signal) -> None:
         if signal.size == 1 or signal.kind is Kind.GROUP:
@@ -242,13 +253,21 @@ class CoreWriter:
         while index < len(body):
             statement = body[index]
             rest = body[index + 1 :]
+            if isinstance(statement, AllStatesUpdate):
+                self._all_states(statement)
+                index += 1
+                continue
+            if isinstance(statement, Scale) and statement.size > _LONGEST_SCALE:
+                self._scale(statement)
+                index += 1
+                continue
             if isinstance(statement, Kernel):
                 group = [statement]
                 while index + len(group) < len(body) and len(group) < self.style.rows_per_scope:
                     following = body[index + len(group)]
                     if type(following) is not type(statement):
                         break
-                    group.append(following)  # type: ignore[arg-type]
+                    group.append(following)
                 self._kernels(group)
                 index += len(group)
                 continue
@@ -360,6 +379,8 @@ class CoreWriter:
         place = element.place
         if place.space == "local":
             # single numbers are plain names where a call wrote them, arrays otherwise
+            if place in self.inside:
+                return self.inside[place] + (f"[{element.index}]" if self.arrays_inside[place] > 1 else "")
             return f"{place.name}[{element.index}]" if place in self.arrays else place.name
         signal = self._signal(place)
         size = 1 if signal is None else signal.size
@@ -448,23 +469,67 @@ class CoreWriter:
             self._close()
 
     def _hold(self, statement: HoldVariances) -> None:
-        slots = [
-            Element(statement.target, packed_index(statement.size, i, i)) for i in range(statement.size)
-        ]
-        condition = AllOf(
-            tuple(
-                Within(slot.place, (low,), (high,), slot.index)
-                for slot, low, high in zip(slots, statement.floor, statement.ceiling, strict=True)
-            )
-        )
+        base = self._base(statement.target)
         self._line("")
         self._comment("judge, then commit")
-        self._condition_head("if (!", condition, ")")
-        self._open()
-        self._line(f"status = {self.prefix}_hold_variances({self._base(statement.target)});")
-        self.functions.add("hold_variances")
+        self._open(f"if (!{self.prefix}_is_bounded({base}))")
+        self._line(f"status = {self.prefix}_hold_variances({base});")
+        self.functions |= {"hold_variances", self.precision.function("fabs")}
         self._close()
         self.versions[statement.target] += 1
+
+    def _all_states(self, kernel: AllStatesUpdate) -> None:
+        """Write the update by a sensor of all states: calls that take two rows each, from one buffer to the other."""
+        first = kernel.rows[0]
+        size, packed = first.size, first.size * (first.size + 1) // 2
+        zero = self.precision.literal(0.0)
+        self.declared += [f"{self.prefix}_rows_t work;", f"{self.precision.name} spare_covariance[{packed}];"]
+        for place, count in ((first.delta, size), (first.scales, size), (first.nis, 1)):
+            self.inside[place], self.arrays_inside[place] = f"work.{place.name}", count
+        noise = self._noise_of(first.r, size)
+        self._line("")
+        for line in kernel.comment:
+            self._comment(line)
+        self._loop(size, f"work.{first.delta.name}[i] = {zero};")
+        self._line(f"work.{first.nis.name} = {zero};")
+        spare, target = "spare_covariance", self._base(first.target)
+        source = self._base(first.p)
+        turns = size // 2
+        for turn in range(turns):
+            after = target if (turns - turn) % 2 else spare
+            row = 2 * turn
+            self._comment(f"rows {row} and {row + 1}")
+            residual = f"&{self._base(first.residual)}[{row}]"
+            variance = f"&work.{first.scales.name}[{row}]"
+            self._line(f"{self.prefix}_gain({source}, {after}, &work, {residual}, &{noise}[{row}], {variance});")
+            self._line(f"{self.prefix}_place({after}, &work);")
+            self._line(f"{self.prefix}_downdate({source}, {after}, &work);")
+            source = after
+        self.operations += pair_operations(size)
+        for place, _ in kernel.writes:
+            self.versions[place] += 1
+
+    def _noise_of(self, place: Place, size: int) -> str:
+        """Return an array that holds the variances of the rows: the parameter itself, or a copy."""
+        nodes = self._read(place, size)
+        elements = [node.element for node in nodes if node.operation == "load"]
+        if len(elements) == size and elements == [(elements[0][0], k, elements[0][2]) for k in range(size)]:
+            return self._base(elements[0][0])
+        self.declared.append(f"{self.precision.name} noise[{size}];")
+        copy = Place("local", "noise")
+        self.inside[copy], self.arrays_inside[copy] = "noise", size
+        self._emit([((copy, k), node) for k, node in enumerate(nodes)])
+        return "noise"
+
+    def _scale(self, kernel: Scale) -> None:
+        """Write a multiplication of a long vector as a loop."""
+        self._line("")
+        for line in kernel.comment:
+            self._comment(line)
+        factor = self._operand(Element(kernel.factor))
+        self._loop(kernel.size, f"{self._base(kernel.target)}[i] = {factor} * {self._base(kernel.source)}[i];")
+        self.operations["multiplication"] += kernel.size
+        self.versions[kernel.target] += 1
 
     # -- arithmetic ---------------------------------------------------------------------------------------------------
 
@@ -502,7 +567,7 @@ class CoreWriter:
     def _kernels(self, group: Sequence[Kernel]) -> None:
         """Write kernels in one scope; what one writes the next reads without a detour through memory."""
         pending: dict[Slot, Node] = {}
-        comments = []
+        comments: list[str] = []
         for kernel in group:
             values = []
             for (place, size), stems in zip(kernel.reads, kernel.names(), strict=True):
@@ -612,9 +677,7 @@ class CoreWriter:
         if node.operation == "const":
             return self.precision.literal(node.value)
         parts = [self._expression(item, uses) for item in node.arguments]
-        wrapped = [
-            f"({text})" if _is_compound(text) else text for text in parts
-        ]
+        wrapped = [f"({text})" if _is_compound(text) else text for text in parts]
         operation = node.operation
         if operation in _COUNTED:
             self.operations[_COUNTED[operation]] += 1
@@ -711,7 +774,9 @@ class CoreWriter:
     def _attempt(self, statement: Attempt) -> None:
         p, u = self.prefix, self.upper
         calls = statement.calls
-        self._line(f"{self.root}_status_t own = {self.call_text(calls[0], 'latest', 'spare' if len(calls) == 1 else '&work[2]')};")
+        self._line(
+            f"{self.root}_status_t own = {self.call_text(calls[0], 'latest', 'spare' if len(calls) == 1 else '&work[2]')};"
+        )
         if len(calls) > 1:
             self._line(f"{self.root}_status_t highest = status;")
         self._line("")
@@ -766,7 +831,7 @@ def needs_params(block: Block, entry: Entry) -> bool:
         return bool(block.param_signals_flat())
     for statement in walk(entry.body):
         if isinstance(statement, Call):
-            callee = (block.parts[statement.part] if statement.part else block)
+            callee = block.parts[statement.part] if statement.part else block
             if needs_params(callee, callee.entries[statement.entry]):
                 return True
             callee_entry = callee.entries[statement.entry]
@@ -821,7 +886,7 @@ def _targets(statement: Statement) -> set[Place]:
 
 def may_refuse(statement: Statement) -> bool:
     """Whether a statement may end the entry with a negative status."""
-    if isinstance(statement, (Refuse, HoldVariances)) or (isinstance(statement, Call)):
+    if isinstance(statement, (Refuse, HoldVariances, Call)):
         return True
     if isinstance(statement, When):
         return any(may_refuse(item) for item in (*statement.then, *statement.otherwise))
@@ -876,4 +941,6 @@ def wrap_signature(text: str) -> list[str]:
     return [*lines, current]
 
 
-_RESERVED = frozenset("before after params out status work latest spare own highest taken i".split())
+_RESERVED = frozenset(
+    "before after params out status work latest spare own highest taken i noise spare_covariance".split()
+)

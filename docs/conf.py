@@ -17,6 +17,8 @@ napoleon_google_docstring = False
 napoleon_use_ivar = True
 napoleon_use_rtype = False
 
+suppress_warnings = ["ref.python"]  # attributes called `inputs` and `states` on several classes
+
 html_theme = "alabaster"
 html_theme_options = {"description": "the compiler for plants", "page_width": "1100px", "fixed_sidebar": True}
 html_show_copyright = False

@@ -10,7 +10,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-
 from plantc.symbolic import Plant, sqrt, vertcat
 from plantc.symbolic.estimators import extended_kalman_filter
 
@@ -36,7 +35,11 @@ imu.sensor(
     doc="specific force",
 )
 imu.sensor(
-    "magnetometer", q.to_body(vertcat(north, 0, down)), variance=0.05**2, range=(-2, 2), doc="field, scaled to unit length"
+    "magnetometer",
+    q.to_body(vertcat(north, 0, down)),
+    variance=0.05**2,
+    range=(-2, 2),
+    doc="field, scaled to unit length",
 )
 
 attitude_ekf = extended_kalman_filter(

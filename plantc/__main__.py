@@ -71,7 +71,12 @@ class Session:
 
     def progress(self) -> Progress:
         """Return a progress display; silent where the output is no terminal."""
-        columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"), TimeElapsedColumn())
+        columns = (
+            TextColumn("{task.description}"),
+            BarColumn(),
+            TextColumn("{task.percentage:>3.0f} %"),
+            TimeElapsedColumn(),
+        )
         return Progress(*columns, console=self.console, transient=True, disable=not self.console.is_terminal)
 
 
@@ -178,15 +183,21 @@ def _derived_text(answer: dict[str, Any]) -> list[str]:
             lines += [f"{key} =", text]
     values = ", ".join(f"{re:.6g}{im:+.6g}j" if im else f"{re:.6g}" for re, im in answer["eigenvalues"])
     lines.append(f"eigenvalues: {values}")
-    lines.append(f"controllable: rank {answer['controllability_rank']} of {n}; observable: rank {answer['observability_rank']} of {n}")
+    lines.append(
+        f"controllable: rank {answer['controllability_rank']} of {n}; observable: rank {answer['observability_rank']} of {n}"
+    )
     return lines
 
 
 @main.command(name="export")
 @click.argument("model")
-@click.option("--out", type=click.Path(path_type=Path), default=Path("generated_c"), show_default=True, help="Output folder.")
+@click.option(
+    "--out", type=click.Path(path_type=Path), default=Path("generated_c"), show_default=True, help="Output folder."
+)
 @click.option("--precision", type=click.Choice(["double", "float"]), default="double", show_default=True)
-@click.option("--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace.")
+@click.option(
+    "--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace."
+)
 @click.option("--redesign", is_flag=True, help="Design the numbers of design.json anew.")
 @_common
 def export_command(
@@ -238,7 +249,9 @@ def evidence_text(item: Export, seconds: float) -> list[str]:
         f"({evidence['compiler']['contraction']}), {evidence['memory_bytes']} bytes of memory, {seconds:.1f} s"
     ]
     lines += checks_text(item.check.results)
-    reached = ", ".join(f"{name} {count}" for name, count in sorted(item.check.statuses.items(), key=lambda row: -row[1]))
+    reached = ", ".join(
+        f"{name} {count}" for name, count in sorted(item.check.statuses.items(), key=lambda row: -row[1])
+    )
     lines.append(f"  statuses reached: {reached}")
     return lines
 
@@ -266,7 +279,9 @@ def checks_text(results: list[CheckResult]) -> list[str]:
 @main.command(name="check")
 @click.argument("folder", type=click.Path(path_type=Path))
 @click.option("--model", required=True, help="The model, file.py or file.py:name.")
-@click.option("--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace.")
+@click.option(
+    "--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace."
+)
 @_common
 def check_command(folder: Path, model: str, steps: int, as_json: bool, debug: bool) -> None:
     """Is what lies in FOLDER still what its model gives, and does it still pass?"""
@@ -278,7 +293,9 @@ def check_command(folder: Path, model: str, steps: int, as_json: bool, debug: bo
         wanted = [block for block in blocks if block.name == manifest["name"]]
         if not wanted:
             names = ", ".join(block.name for block in blocks)
-            raise UsageError(f"{path}: it has no block {manifest['name']!r}, which {folder} was written from; it has {names}")
+            raise UsageError(
+                f"{path}: it has no block {manifest['name']!r}, which {folder} was written from; it has {names}"
+            )
         block, _ = with_design(wanted[0], path.parent / "design.json")
         with session.progress() as display:
             task = display.add_task(block.name, total=None)
@@ -324,7 +341,9 @@ def demo_command(out: Path, as_json: bool, debug: bool) -> None:
         from .demo import picture
         from .examples.quadrotor_ekf import quadrotor_ekf
 
-        session.say("The extended Kalman filter of a 12-state quadrotor: derived, written as C, compiled, cross-checked.")
+        session.say(
+            "The extended Kalman filter of a 12-state quadrotor: derived, written as C, compiled, cross-checked."
+        )
         path = Path(__file__).resolve().parent
         exports = _export_all(session, [quadrotor_ekf], path / "demo.py", out, "double", 100, False)
         image = picture(quadrotor_ekf, out / "quadrotor_ekf.svg")

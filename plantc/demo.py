@@ -55,7 +55,9 @@ def picture(block: Block, path: Path) -> Path:
         figure, axes = plt.subplots(figsize=(8, 3.2), layout="constrained")
         axes.plot(time, readings, ".", color="0.75", markersize=3, label="readings")
         axes.plot(time[gated], readings[gated], "x", color="C3", markersize=6, label="gated")
-        axes.fill_between(time, estimate - 3 * sigma, estimate + 3 * sigma, color="C0", alpha=0.2, linewidth=0, label="3 sigma")
+        axes.fill_between(
+            time, estimate - 3 * sigma, estimate + 3 * sigma, color="C0", alpha=0.2, linewidth=0, label="3 sigma"
+        )
         axes.plot(time, estimate, color="C0", linewidth=1.2, label="compiled filter")
         axes.plot(time, truth, color="k", linewidth=0.8, linestyle="--", label="truth")
         axes.set_xlabel("time, s")

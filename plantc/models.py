@@ -100,7 +100,9 @@ def operating_point(text: str, plant: Plant, names: Mapping[str, Any], path: Pat
         key, _, value = part.partition("=")
         key = key.strip()
         if key not in known:
-            raise UsageError(f"--at: {plant.name} has no state, input or parameter {key!r}; it has {', '.join(sorted(known))}")
+            raise UsageError(
+                f"--at: {plant.name} has no state, input or parameter {key!r}; it has {', '.join(sorted(known))}"
+            )
         try:
             values[key] = float(value)
         except ValueError:

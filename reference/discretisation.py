@@ -290,9 +290,7 @@ def _random_point(model: Model, rng: np.random.Generator) -> tuple[Array, Array,
     return x, u, p
 
 
-def process_covariance(
-    model: Model, x: Array, u: Array, p: Array, dt: Any, params: Mapping[str, Array]
-) -> Array:
+def process_covariance(model: Model, x: Array, u: Array, p: Array, dt: Any, params: Mapping[str, Array]) -> Array:
     """Return Q of one step from the state x before it.
 
     Noise per step enters as G S G'. A density is integrated over the step: exactly where A, G and dt are constant (Van

@@ -67,8 +67,12 @@ class SteadyStateOracle:
                     return BAD_PARAM, {}, {}
                 return 0, {name: np.asarray(params[f"{name}_0"], precision) for name, *_ in self.states}, {}
             x = np.concatenate([np.ravel(np.asarray(memory[name], precision)) for name, *_ in self.states])
-            p = np.concatenate([np.zeros(0, precision), *[np.ravel(np.asarray(params[n], precision)) for n in self.plant_params]])
-            return {"predict": self._predict, "update": self._update, "step": self._step}[entry](x, inputs, p, precision)
+            p = np.concatenate(
+                [np.zeros(0, precision), *[np.ravel(np.asarray(params[n], precision)) for n in self.plant_params]]
+            )
+            return {"predict": self._predict, "update": self._update, "step": self._step}[entry](
+                x, inputs, p, precision
+            )
 
     def _u(self, inputs: Mapping[str, Any], precision: Any) -> Array:
         pieces = [np.ravel(np.asarray(inputs.get(n, np.zeros(size)), precision)) for n, size, *_ in self.inputs]
@@ -86,13 +90,17 @@ class SteadyStateOracle:
             fields[name] = value
         return 0, fields
 
-    def _predict(self, x: Array, inputs: Mapping[str, Any], p: Array, precision: Any) -> tuple[int, dict[str, Any], dict[str, Any]]:
+    def _predict(
+        self, x: Array, inputs: Mapping[str, Any], p: Array, precision: Any
+    ) -> tuple[int, dict[str, Any], dict[str, Any]]:
         if any(_outside(inputs[name], low, high, precision) for name, _, low, high in self.inputs):
             return BAD_INPUT, {}, {}
         status, fields = self._judged(self.f(x, self._u(inputs, precision), p)[0], precision)
         return status, fields, {}
 
-    def _update(self, x: Array, inputs: Mapping[str, Any], p: Array, precision: Any) -> tuple[int, dict[str, Any], dict[str, Any]]:
+    def _update(
+        self, x: Array, inputs: Mapping[str, Any], p: Array, precision: Any
+    ) -> tuple[int, dict[str, Any], dict[str, Any]]:
         limits = [(n, low, high) for n, _, _, low, high in self.sensors]
         limits += [(n, low, high) for n, _, low, high in self.inputs if n in self.used]
         if any(_outside(inputs[name], low, high, precision) for name, low, high in limits):
@@ -107,7 +115,9 @@ class SteadyStateOracle:
         status, fields = self._judged(x + self.gain.astype(precision) @ residual, precision)
         return status, fields, {"innovation": residual} if status >= 0 else {}
 
-    def _step(self, x: Array, inputs: Mapping[str, Any], p: Array, precision: Any) -> tuple[int, dict[str, Any], dict[str, Any]]:
+    def _step(
+        self, x: Array, inputs: Mapping[str, Any], p: Array, precision: Any
+    ) -> tuple[int, dict[str, Any], dict[str, Any]]:
         status, fields, _ = self._predict(x, inputs, p, precision)
         if status < 0:
             return status, {}, {}

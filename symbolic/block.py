@@ -23,13 +23,11 @@ from .program import (
     Element,
     Entry,
     Evaluate,
-    HoldVariances,
     IsSet,
     Place,
     Refuse,
     Statement,
     Within,
-    packed_index,
     walk,
 )
 from .signals import WIDE, Kind, Signal, Status, check_default, make_range
@@ -229,15 +227,22 @@ class Block:
             raise ModelError(f"{self.name}: the entry {name!r} is defined twice; rename one of them")
         for symbol in inputs:
             if self._inputs.get(symbol.signal.name) is not symbol:
-                raise ModelError(f"{self.name}: {symbol.signal.name!r} is not an input of this block; declare it with input()")
+                raise ModelError(
+                    f"{self.name}: {symbol.signal.name!r} is not an input of this block; declare it with input()"
+                )
         for _, status in guards:
             if status >= 0:
                 raise ModelError(f"{self.name}: a guard of {name!r} has the status {status.name}; give a negative one")
-        update = {symbol.signal.name: self._expression(value, symbol.signal.size) for symbol, value in (following or {}).items()}
+        update = {
+            symbol.signal.name: self._expression(value, symbol.signal.size)
+            for symbol, value in (following or {}).items()
+        }
         unknown = set(update) - {item.name for item in self.memory_signals}
         if unknown:
             raise ModelError(f"{self.name}: {sorted(unknown)} are no memory fields; declare them with memory()")
-        answers = {check_name("output", key, self.name): self._expression(value) for key, value in (outputs or {}).items()}
+        answers = {
+            check_name("output", key, self.name): self._expression(value) for key, value in (outputs or {}).items()
+        }
         signals = []
         for key, value in answers.items():
             given = (output_ranges or {}).get(key)
@@ -246,11 +251,15 @@ class Block:
         used = [*self.param_symbols(), *self.memory_symbols(), *inputs]
         conditions = [self._expression(value, 1) for value, _ in guards]
         function = ca.Function(
-            f"{self.name}_{name}", used, [ca.densify(item) for item in [*conditions, *update.values(), *answers.values()]],
+            f"{self.name}_{name}",
+            used,
+            [ca.densify(item) for item in [*conditions, *update.values(), *answers.values()]],
             {"allow_free": True},
         )
         if function.get_free():
-            raise ModelError(f"{self.name}: the entry {name!r} uses {function.get_free()}, which it does not take; list them")
+            raise ModelError(
+                f"{self.name}: the entry {name!r} uses {function.get_free()}, which it does not take; list them"
+            )
         reads = tuple(((self._place(symbol), symbol.signal.size),) for symbol in used)
         guard_places = [Place("local", f"guard_{index}") for index in range(len(conditions))]
         targets = [
@@ -366,34 +375,27 @@ class Block:
             )
         )
 
-    def judge_memory(self, names: Sequence[str], held: Sequence[HoldVariances] = ()) -> Condition:
-        """Return the condition that fields of the candidate memory are within their ranges.
-
-        Variances held by a `HoldVariances` before are within theirs: of those, the elements beside the diagonal are
-        compared.
-        """
-        conditions: list[Condition] = []
-        by_name = {item.target.name: item for item in held}
-        for signal in self.memory_signals:
-            if signal.kind is not Kind.REAL or signal.name not in names:
-                continue
-            place = Place("next", signal.name)
-            if signal.name not in by_name:
-                conditions.append(Within(place, signal.low, signal.high))
-                continue
-            diagonal = _diagonal(by_name[signal.name].size)
-            conditions += [
-                Within(place, (signal.low[i],), (signal.high[i],), i) for i in range(signal.size) if i not in diagonal
-            ]
-        return AllOf(tuple(conditions))
+    def judge_memory(self, names: Sequence[str]) -> Condition:
+        """Return the condition that fields of the candidate memory are within their ranges."""
+        return AllOf(
+            tuple(
+                Within(Place("next", signal.name), signal.low, signal.high)
+                for signal in self.memory_signals
+                if signal.kind is Kind.REAL and signal.name in names
+            )
+        )
 
     def check(self) -> None:
         """Raise a ModelError if generated names collide."""
         for what, signals in (("parameter", self.param_signals), ("memory field", self.memory_signals)):
             check_unique([(signal.name, f"the {what} {signal.name!r}") for signal in signals], self.name)
         for entry in self.entries.values():
-            check_unique([(signal.name, f"the input {signal.name!r} of {entry.name}") for signal in entry.inputs], self.name)
-            check_unique([(signal.name, f"the output {signal.name!r} of {entry.name}") for signal in entry.outputs], self.name)
+            check_unique(
+                [(signal.name, f"the input {signal.name!r} of {entry.name}") for signal in entry.inputs], self.name
+            )
+            check_unique(
+                [(signal.name, f"the output {signal.name!r} of {entry.name}") for signal in entry.outputs], self.name
+            )
 
     def model_hash(self) -> str:
         """Return eight hexadecimal digits of a hash of the model: same model, same hash, on any machine."""
@@ -422,10 +424,6 @@ class Block:
         return digest.hexdigest()[:8]
 
 
-def _diagonal(size: int) -> set[int]:
-    return {packed_index(size, i, i) for i in range(size)}
-
-
 def _arguments_of_calls(statements: Sequence[Statement]) -> set[str]:
     """Return the names of inputs that are only handed on to calls, which judge them."""
     handed = set()
@@ -444,4 +442,3 @@ def places_written(statement: Statement) -> set[Place]:
         return {place for place, _ in writes}
     target = getattr(statement, "target", None)
     return {target} if isinstance(target, Place) else set()
-

@@ -36,7 +36,9 @@ def delay(source: str, initial: Any = 0.0) -> Delay:
     return Delay(source, initial)
 
 
-def connect(blocks: Mapping[str, Block] | Sequence[Block], wires: Mapping[str, str | Delay], name: str, *, doc: str = "") -> Block:
+def connect(
+    blocks: Mapping[str, Block] | Sequence[Block], wires: Mapping[str, str | Delay], name: str, *, doc: str = ""
+) -> Block:
     """Return one Block made of parts.
 
     Parameters
@@ -65,7 +67,9 @@ def connect(blocks: Mapping[str, Block] | Sequence[Block], wires: Mapping[str, s
     """
     parts = dict(blocks) if isinstance(blocks, Mapping) else {block.name: block for block in blocks}
     if len(parts) != len(blocks):
-        raise ModelError(f"{name}: two parts have the same name; give them names: connect({{'first': ..., 'second': ...}}, ...)")
+        raise ModelError(
+            f"{name}: two parts have the same name; give them names: connect({{'first': ..., 'second': ...}}, ...)"
+        )
     return _Composer(parts, dict(wires), name, doc).build()
 
 
@@ -89,7 +93,9 @@ class _Composer:
     def _split(self, text: str) -> tuple[str, str]:
         part, _, signal = text.partition(".")
         if part not in self.parts or not signal:
-            raise ModelError(f"{self.name}: the wire end {text!r} is not part.signal; the parts are {', '.join(self.parts)}")
+            raise ModelError(
+                f"{self.name}: the wire end {text!r} is not part.signal; the parts are {', '.join(self.parts)}"
+            )
         return part, signal
 
     def _input(self, part: str, name: str) -> Signal:
@@ -190,7 +196,10 @@ class _Composer:
             "step": Entry("step", tuple(inputs), groups, tuple(body), f"Call {', then '.join(order)}."),
         }
         block.equations = [f"{part}: {line}" for part in order for line in self.parts[part].equations]
-        block.notes = [f"{'.'.join(end)} = {'.'.join(start)}{', one step late' if late_ else ''}" for end, (start, late_) in self.wires.items()]
+        block.notes = [
+            f"{'.'.join(end)} = {'.'.join(start)}{', one step late' if late_ else ''}"
+            for end, (start, late_) in self.wires.items()
+        ]
         block.source_hash = "|".join(self.parts[part].source_hash for part in order) + repr(sorted(block.notes))
         block.float_bound = max(part.float_bound for part in self.parts.values())
         block.check()
@@ -201,10 +210,14 @@ class _Composer:
 
     def _add_delay(self, part: str, signal: Signal, wire: Delay) -> str:
         field = f"delay_{part}_{signal.name}"
-        values = check_default(self.name, f"the delay before {part}.{signal.name}", wire.initial, signal.low, signal.high)
+        values = check_default(
+            self.name, f"the delay before {part}.{signal.name}", wire.initial, signal.low, signal.high
+        )
         doc = f"{part}.{signal.name} of the next step"
         self.block.memory_signals.append(replace(signal, name=field, doc=doc))
-        self.block.param_signals.append(replace(signal, name=f"{field}_0", default=values, doc=f"first {part}.{signal.name}"))
+        self.block.param_signals.append(
+            replace(signal, name=f"{field}_0", default=values, doc=f"first {part}.{signal.name}")
+        )
         return field
 
     def _scenario(self) -> Scenario | None:
@@ -230,7 +243,11 @@ class _Composer:
         def memory(rng: Any) -> dict[str, Any]:
             values = {signal.name: _drawn(rng, signal) for signal in block.memory_signals}
             for part, inner in parts.items():
-                own = given[part].memory(rng) if part in given else {s.name: _drawn(rng, s) for s in inner.memory_signals_flat()}
+                own = (
+                    given[part].memory(rng)
+                    if part in given
+                    else {s.name: _drawn(rng, s) for s in inner.memory_signals_flat()}
+                )
                 values |= {f"{part}.{key}": value for key, value in own.items()}
             return values
 
@@ -238,7 +255,9 @@ class _Composer:
             answer: dict[str, Any] = {}
             for part, scenario in given.items():
                 if scenario.scales is not None:
-                    own = {key.removeprefix(f"{part}."): item for key, item in values.items() if key.startswith(f"{part}.")}
+                    own = {
+                        key.removeprefix(f"{part}."): item for key, item in values.items() if key.startswith(f"{part}.")
+                    }
                     answer |= {f"{part}.{key}": item for key, item in scenario.scales(own).items()}
             return answer
 
@@ -293,7 +312,10 @@ class ComposedOracle:
                 own, after, outputs = oracle.call(
                     statement.entry,
                     {key.removeprefix(prefix): value for key, value in memory.items() if key.startswith(prefix)},
-                    {key: values[item] if isinstance(item, Place) else np.array([item]) for key, item in statement.arguments},
+                    {
+                        key: values[item] if isinstance(item, Place) else np.array([item])
+                        for key, item in statement.arguments
+                    },
                     {key.removeprefix(prefix): value for key, value in params.items() if key.startswith(prefix)},
                     precision,
                 )

@@ -48,7 +48,11 @@ def _checked_dt(name: str, dt: Any) -> float | tuple[float, float]:
         ends = [float(item) for item in (dt if isinstance(dt, (tuple, list)) else (dt,))]
     except (TypeError, ValueError):
         ends = []
-    if len(ends) not in (1, 2) or not all(math.isfinite(item) and item > 0 for item in ends) or ends != sorted(set(ends)):
+    if (
+        len(ends) not in (1, 2)
+        or not all(math.isfinite(item) and item > 0 for item in ends)
+        or ends != sorted(set(ends))
+    ):
         raise ModelError(f"{name}: dt is {dt!r}; give a positive number of seconds, or (lowest, highest)")
     return ends[0] if len(ends) == 1 else (ends[0], ends[1])
 
@@ -105,11 +109,15 @@ def linear_map(plant: Plant) -> tuple[ca.SX, ca.SX]:
     assert made is not None and plant.dt_symbol is not None
     method = made.method
     if plant.has_attitude:
-        raise ModelError(f"{plant.name}: {method} is for linear plants, and an attitude is not linear; use 'euler' or 'rk4'")
+        raise ModelError(
+            f"{plant.name}: {method} is for linear plants, and an attitude is not linear; use 'euler' or 'rk4'"
+        )
     rates = plant.without_noise(made.continuous.dynamics_expression())
     A = ca.jacobian(rates, plant.x)
     if ca.depends_on(ca.vec(A), ca.vertcat(plant.x, plant.u)):
-        raise ModelError(f"{plant.name}: {method} is for linear plants, and these dynamics are not; use 'euler' or 'rk4'")
+        raise ModelError(
+            f"{plant.name}: {method} is for linear plants, and these dynamics are not; use 'euler' or 'rk4'"
+        )
     rest = ca.substitute(rates, plant.x, ca.DM.zeros(plant.x.numel()))
     n = plant.error_size
     constant = A.is_constant() and isinstance(plant.dt, float)

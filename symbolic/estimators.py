@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,7 +16,17 @@ from .block import Block, DerivativeCheck, Scenario
 from .discretisation import process_covariance, transition
 from .errors import ModelError
 from .expressions import equation_text, numpy_callable, tape
-from .kernels import SMALLEST_VARIANCE, Congruence, Decorrelate, InnovationVariance, Pattern, Pivots, RowUpdate, Scale
+from .kernels import (
+    SMALLEST_VARIANCE,
+    AllStatesUpdate,
+    Congruence,
+    Decorrelate,
+    InnovationVariance,
+    Pattern,
+    Pivots,
+    RowUpdate,
+    Scale,
+)
 from .names import check_name
 from .plant import HIGHEST_VARIANCE, LOWEST_VARIANCE, Noise, Plant, Sensor, State, Symbol, wrap
 from .program import (
@@ -55,13 +65,13 @@ NEXT_COVARIANCE = Place("next", "covariance")
 def extended_kalman_filter(
     plant: Plant,
     *,
-    initial_variance: Mapping[Symbol | str, Any],
-    around: Mapping[Symbol | str, Any] | None = None,
+    initial_variance: Mapping[Any, Any],
+    around: Mapping[Any, Any] | None = None,
     gate: Mapping[str, float] | None = None,
     reject_limit: int = 0,
     inflation: float = 100.0,
-    variance_floor: Mapping[Symbol | str, float] | float | None = None,
-    variance_ceiling: Mapping[Symbol | str, float] | float | None = None,
+    variance_floor: Mapping[Any, float] | float | None = None,
+    variance_ceiling: Mapping[Any, float] | float | None = None,
     float_bound: float = 0.05,
     name: str | None = None,
     doc: str = "",
@@ -123,8 +133,8 @@ def extended_kalman_filter(
 def kalman_filter(
     plant: Plant,
     *,
-    initial_variance: Mapping[Symbol | str, Any],
-    at: Mapping[Symbol | str, Any] | None = None,
+    initial_variance: Mapping[Any, Any],
+    at: Mapping[Any, Any] | None = None,
     name: str | None = None,
     doc: str = "",
     **options: Any,
@@ -167,7 +177,7 @@ def kalman_filter(
 def steady_state_kalman_filter(
     plant: Plant,
     *,
-    around: Mapping[Symbol | str, Any] | None = None,
+    around: Mapping[Any, Any] | None = None,
     name: str | None = None,
     doc: str = "",
     gain: Any = None,
@@ -219,13 +229,13 @@ def is_linear(plant: Plant) -> bool:
 class _Options:
     name: str
     doc: str
-    initial_variance: Mapping[Symbol | str, Any]
-    around: Mapping[Symbol | str, Any]
+    initial_variance: Mapping[Any, Any]
+    around: Mapping[Any, Any]
     gate: Mapping[str, float]
     reject_limit: int
     inflation: float
-    floor: Mapping[Symbol | str, float] | float | None
-    ceiling: Mapping[Symbol | str, float] | float | None
+    floor: Mapping[Any, float] | float | None
+    ceiling: Mapping[Any, float] | float | None
     float_bound: float
 
 
@@ -237,10 +247,7 @@ def _upper(matrix: ca.SX) -> tuple[Pattern, ca.SX]:
     """Return pattern and values of the upper triangle of a symmetric expression, row by row, exact zeros left out."""
     sparse = ca.sparsify(matrix)
     pattern = tuple(
-        (i, j)
-        for i in range(sparse.shape[0])
-        for j in range(i, sparse.shape[1])
-        if sparse.sparsity().has_nz(i, j)
+        (i, j) for i in range(sparse.shape[0]) for j in range(i, sparse.shape[1]) if sparse.sparsity().has_nz(i, j)
     )
     return pattern, ca.vertcat(ca.SX(0, 1), *[sparse[i, j] for i, j in pattern])
 
@@ -326,7 +333,9 @@ class _Builder:
         known = [*[state.symbol for state in self.plant.states], *self.plant.inputs]
         unknown = set(given) - {symbol.signal.name for symbol in known}
         if unknown:
-            raise ModelError(f"{self.options.name}: around= names {sorted(unknown)}, which are neither states nor inputs")
+            raise ModelError(
+                f"{self.options.name}: around= names {sorted(unknown)}, which are neither states nor inputs"
+            )
         vectors = []
         for symbols in ([state.symbol for state in self.plant.states], self.plant.inputs):
             parts: list[float] = []
@@ -367,7 +376,9 @@ class _Builder:
         if unknown:
             raise ModelError(f"{options.name}: gate= names {sorted(unknown)}, which are no sensors")
         if not isinstance(options.reject_limit, int) or not 0 <= options.reject_limit < 2**32:
-            raise ModelError(f"{options.name}: reject_limit is {options.reject_limit!r}; give a whole number, 0 for never")
+            raise ModelError(
+                f"{options.name}: reject_limit is {options.reject_limit!r}; give a whole number, 0 for never"
+            )
         if not 1.0 <= options.inflation <= 1e6:
             raise ModelError(f"{options.name}: inflation is {options.inflation!r}; give a factor from 1 to 1e6")
         block.param_signals += [
@@ -380,7 +391,11 @@ class _Builder:
                 doc="readings gated in a row after which step recovers; 0: never",
             ),
             Signal(
-                "inflation", low=(1.0,), high=(1e6,), default=(float(options.inflation),), doc="factor on P at a recovery"
+                "inflation",
+                low=(1.0,),
+                high=(1e6,),
+                default=(float(options.inflation),),
+                doc="factor on P at a recovery",
             ),
         ]
         self._declare_memory()
@@ -408,7 +423,9 @@ class _Builder:
             self._noise_parameter(f"variance_{name}", tuple(values), unit, doc, LOWEST_VARIANCE, full=sensor.full)
         gate = float(self.options.gate.get(name, 0.0))
         if not 0.0 <= gate <= 1e6:
-            raise ModelError(f"{self.options.name}: the gate of {name!r} is {gate:g}; give a NIS from 0 (no gate) to 1e6")
+            raise ModelError(
+                f"{self.options.name}: the gate of {name!r} is {gate:g}; give a NIS from 0 (no gate) to 1e6"
+            )
         doc = f"largest accepted NIS of {name}; 0: no gate"
         self.block.param_signals.append(Signal(f"gate_{name}", low=(0.0,), high=(1e6,), default=(gate,), doc=doc))
 
@@ -429,7 +446,9 @@ class _Builder:
     def _declare_memory(self) -> None:
         plant, block = self.plant, self.block
         x0, _ = self._nominal()
-        variances = self._per_error(self.options.initial_variance, "initial_variance", LOWEST_VARIANCE, HIGHEST_VARIANCE)
+        variances = self._per_error(
+            self.options.initial_variance, "initial_variance", LOWEST_VARIANCE, HIGHEST_VARIANCE
+        )
         for state in plant.states:
             signal = state.signal
             doc = signal.doc or ("attitude, body to world (w, x, y, z)" if state.attitude else "")
@@ -439,7 +458,9 @@ class _Builder:
             low, high = low * (signal.size // len(low)), high * (signal.size // len(high))
             default = tuple(float(item) for item in x0[state.at])
             block.param_signals.append(
-                Signal(f"{signal.name}_0", signal.size, signal.unit, low, high, f"initial {signal.name}", default=default)
+                Signal(
+                    f"{signal.name}_0", signal.size, signal.unit, low, high, f"initial {signal.name}", default=default
+                )
             )
         for state in plant.states:
             size = state.error_at.stop - state.error_at.start
@@ -546,13 +567,15 @@ class _Builder:
     def _evaluate(
         self,
         name: str,
-        reads: list[tuple[list[ca.SX], list[Targets]]],
-        outputs: list[tuple[ca.SX, Targets, tuple[str, ...]]],
+        reads: Sequence[tuple[Sequence[ca.SX], Sequence[Any]]],
+        outputs: Sequence[tuple[ca.SX, Targets, tuple[str, ...]]],
         comment: list[str],
     ) -> Evaluate:
         arguments = [symbol for symbols, _ in reads for symbol in symbols]
         places = [place for _, group in reads for place in group]
-        function = ca.Function(f"{self.block.name}_{name}", arguments, [ca.densify(value) for value, _, _ in outputs], {"allow_free": True})
+        function = ca.Function(
+            f"{self.block.name}_{name}", arguments, [ca.densify(value) for value, _, _ in outputs], {"allow_free": True}
+        )
         if function.get_free():
             raise ModelError(f"{self.plant.name}: {name} uses {function.get_free()}, which it does not take")
         return Evaluate(
@@ -575,9 +598,8 @@ class _Builder:
     def _hold(self) -> HoldVariances:
         return HoldVariances(NEXT_COVARIANCE, self.n, self.floor, self.ceiling)
 
-    def _judge(self, *, states: bool = True) -> Refuse:
-        names = [state.signal.name for state in self.plant.states] if states else []
-        return Refuse(Status.OVERFLOW, self.block.judge_memory([*names, "covariance"], [self._hold()]))
+    def _judge(self) -> Refuse:
+        return Refuse(Status.OVERFLOW, self.block.judge_memory([state.signal.name for state in self.plant.states]))
 
     def _init(self) -> Entry:
         plant = self.plant
@@ -643,7 +665,7 @@ class _Builder:
         q_names = tuple(f"q_{i}_{j}" for i, j in q_pattern)
         targets, names = self._next_states()
         dt = [] if plant.dt_symbol is None or isinstance(plant.dt, float) else [plant.dt_symbol]
-        reads = [
+        reads: list[tuple[Sequence[ca.SX], Sequence[Any]]] = [
             self._state_reads(),
             self._input_reads(tuple(plant.inputs)),
             self._param_reads(),
@@ -661,9 +683,7 @@ class _Builder:
             how += f" in {made.substeps} substeps"
         body: list[Statement] = [
             self._evaluate("predict", reads, outputs, [how, *dynamics_equations(plant)]),
-            Congruence(
-                self.n, f_place, f_pattern, COVARIANCE, q_place, q_pattern, NEXT_COVARIANCE, f_names, q_names
-            ),
+            Congruence(self.n, f_place, f_pattern, COVARIANCE, q_place, q_pattern, NEXT_COVARIANCE, f_names, q_names),
             self._hold(),
             self._judge(),
         ]
@@ -685,7 +705,7 @@ class _Builder:
         r_names = tuple(f"r_{i}" if diagonal else f"r_{i}_{j}" for i, j in r_pattern)
         e_names = tuple(f"residual_{i}" for i in range(m)) if m > 1 else ("residual",)
         residual, h, r = Place("local", "residual"), Place("local", "h"), Place("local", "r")
-        reads = [
+        reads: list[tuple[Sequence[ca.SX], Sequence[Any]]] = [
             self._state_reads(),
             ([ca.SX(sensor.measurement)], [((Place("in", name), m),)]),
             self._input_reads(made.inputs),
@@ -699,7 +719,10 @@ class _Builder:
         pairs = self.plant.symbol_names()
         expected = equation_text(sensor.expression, pairs, 200)
         wrapped = ", wrapped" if sensor.signal.angle else ""
-        tail = lambda i: f"[{i}]" if m > 1 else ""  # noqa: E731
+
+        def tail(i: int) -> str:
+            return f"[{i}]" if m > 1 else ""
+
         comment = [f"residual{tail(i)} = {name}{tail(i)} - ({text}){wrapped}" for i, text in enumerate(expected)]
         body: list[Statement] = [
             self._evaluate(f"measure_{name}", reads, outputs, comment),
@@ -719,21 +742,38 @@ class _Builder:
             h_names = tuple(f"wh_{i}_{j}" for i, j in h_pattern)
             r_names = tuple(f"d_{i}" for i in range(m))
             e_names = tuple(f"we_{i}" for i in range(m))
+        columns = [[j for i, j in h_pattern if i == row] for row in range(m)]
+        at = [[k for k, (i, _) in enumerate(h_pattern) if i == row] for row in range(m)]
+        single = [diagonal and len(item) == 1 and _is_one(h_values[item[0]]) for item in at]
+        whole = AllStatesUpdate.serves(n, columns, single)
+        if whole:
+            residual = Place("out", "innovation")
+        updates = []
         for row in range(m):
-            columns = [k for k, (i, _) in enumerate(h_pattern) if i == row]
-            single = diagonal and len(columns) == 1 and _is_one(h_values[columns[0]])
             source = COVARIANCE if row == 0 else NEXT_COVARIANCE
             text = f"row {row}: " if m > 1 else ""
-            tail_text = "; the measured row as r K" if single else ""
-            body.append(
+            tail_text = "; the measured row as r K" if single[row] else ""
+            updates.append(
                 RowUpdate(
-                    n, row, residual, m, h, h_pattern, r, m, source, NEXT_COVARIANCE, single, h_names, r_names, e_names,
+                    n,
+                    row,
+                    residual,
+                    m,
+                    h,
+                    h_pattern,
+                    r,
+                    m,
+                    source,
+                    NEXT_COVARIANCE,
+                    single[row],
+                    h_names,
+                    r_names,
+                    e_names,
                     (f"{text}d = d + K e, P = P - K s K'{tail_text}",),
                 )  # fmt: skip
             )
-        body.append(
-            Refuse(Status.NOT_POSITIVE, _all_above(Place("local", "row_variance"), m, SMALLEST_VARIANCE))
-        )
+        body += [AllStatesUpdate(tuple(updates))] if whole else updates
+        body.append(Refuse(Status.NOT_POSITIVE, _all_above(Place("local", "row_variance"), m, SMALLEST_VARIANCE)))
         body.append(Assign(Place("out", "nis"), Place("local", "nis"), 1))
         gate = Element(Place("in", "gate"))
         accepted = AnyOf((Compare(gate, "<=", 0.0), Compare(Element(Place("local", "nis")), "<=", gate)))
@@ -749,7 +789,13 @@ class _Builder:
         unit = sensor.signal.unit
         outputs_of = (
             Signal(
-                "innovation", m, unit, (-1e30,) * m, (1e30,) * m, "measured minus expected" + wrapped, angle=sensor.signal.angle
+                "innovation",
+                m,
+                unit,
+                (-1e30,) * m,
+                (1e30,) * m,
+                "measured minus expected" + wrapped,
+                angle=sensor.signal.angle,
             ),
             Signal("variance", m, power_of_unit(unit, 2), doc="of the innovation", low=(0.0,) * m, high=(1e30,) * m),
             Signal("nis", doc="normalised innovation squared, of the whole reading", low=(0.0,), high=(1e30,)),
@@ -785,12 +831,19 @@ class _Builder:
         comment = ["x = x + d"]
         if plant.has_attitude:
             comment = ["x = x + d, attitudes turned by exp(d); the error is now counted from there: P = G P G'"]
-        reads = [(symbols, places), ([d], [((Place("local", "delta"), self.n),)])]
+        reads: list[tuple[Sequence[ca.SX], Sequence[Any]]] = [(symbols, places), ([d], [((Place("local", "delta"), self.n),)])]
         body.append(self._evaluate(f"correct_{sensor}", reads, outputs, comment))
         if plant.has_attitude:
             body.append(
                 Congruence(
-                    self.n, reset, pattern, NEXT_COVARIANCE, None, (), NEXT_COVARIANCE, g_names,
+                    self.n,
+                    reset,
+                    pattern,
+                    NEXT_COVARIANCE,
+                    None,
+                    (),
+                    NEXT_COVARIANCE,
+                    g_names,
                     comment=("P = G P G', G = I - [d]x / 2 for an attitude",),
                 )  # fmt: skip
             )
@@ -802,7 +855,6 @@ class _Builder:
         body = (
             Scale(size, Place("in", "factor"), COVARIANCE, NEXT_COVARIANCE, ("P = factor P",), self.n),
             self._hold(),
-            self._judge(states=False),
         )
         doc = "Multiply the covariance by a factor and leave the estimate: after a disturbance the model does not know."
         return Entry("inflate", (factor,), (), body, doc)
@@ -815,17 +867,19 @@ class _Builder:
         for sensor, entry in updates:
             name = sensor.signal.name
             reading = entry.inputs[0]
-            flag = Signal(f"has_{name}", kind=Kind.FLAG, low=(0.0,), high=(1.0,), doc=f"whether there is a reading of {name}")
+            flag = Signal(
+                f"has_{name}", kind=Kind.FLAG, low=(0.0,), high=(1.0,), doc=f"whether there is a reading of {name}"
+            )
             inputs += [flag, reading]
             group = Signal(name, kind=Kind.GROUP, members=entry.outputs, doc=f"what update_{name} reported, else zeros")
             status = Signal(f"status_{name}", kind=Kind.STATUS, doc=f"status of {name} itself")
             outputs += [status, group]
             given = tuple((signal.name, Place("in", signal.name)) for signal in entry.inputs)
-            zeros = tuple(
+            zeros: tuple[Statement, ...] = tuple(
                 Assign(Place("out", f"{name}.{signal.name}"), 0.0, signal.size) for signal in entry.outputs
             )
             report = Place("out", f"status_{name}")
-            skipped = (*zeros, Raise(Status.SKIPPED))
+            skipped: tuple[Statement, ...] = (*zeros, Raise(Status.SKIPPED))
             limit = Element(Place("param", "reject_limit"))
             count = Element(Place("next", f"rejected_{name}"))
             normal = Attempt((Call(entry.name, given, Place("out", name)),), report, (), skipped)
@@ -856,7 +910,13 @@ class _Builder:
         measurements = [self.measurement(sensor) for sensor in plant.sensors]
         predict = self._predict()
         updates = [(made.sensor, self._update(made)) for made in measurements]
-        entries = [self._init(), predict, *[entry for _, entry in updates], self._step(predict, updates), self._inflate()]
+        entries = [
+            self._init(),
+            predict,
+            *[entry for _, entry in updates],
+            self._step(predict, updates),
+            self._inflate(),
+        ]
         block.entries = {entry.name: entry for entry in entries}
         block.equations = plant_equations(plant)
         block.notes = self._notes()
@@ -875,7 +935,9 @@ class _Builder:
         made = self.plant.discretisation
         lines = []
         if made is not None:
-            lines.append(f"Discretised by {made.method}" + (f" in {made.substeps} substeps." if made.substeps > 1 else "."))
+            lines.append(
+                f"Discretised by {made.method}" + (f" in {made.substeps} substeps." if made.substeps > 1 else ".")
+            )
         if any(noise.is_density for noise in self.plant.process_noises):
             lines.append("Noise densities are integrated over the step.")
         lines.append("Covariance packed (upper triangle by rows); one scalar update for each sensor row.")
@@ -962,7 +1024,9 @@ class _Builder:
         plant = self.plant
         low = np.array([item for symbol in plant.inputs for item in symbol.signal.low])
         high = np.array([item for symbol in plant.inputs for item in symbol.signal.high])
-        exercise = textbook.Exercise(model, x0, u0, np.minimum(0.01 * (high - low), 1.0 + np.abs(u0)), variances, params)
+        exercise = textbook.Exercise(
+            model, x0, u0, np.minimum(0.01 * (high - low), 1.0 + np.abs(u0)), variances, params
+        )
 
         def scales(memory: Mapping[str, Any]) -> dict[str, Any]:
             return sigma_of(plant.states, self.n, memory)

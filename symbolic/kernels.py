@@ -82,7 +82,10 @@ class Congruence(Kernel):
         for (i, j), value in zip(self.f_pattern, f, strict=True):
             rows[i].append((j, value))
         # the diagonal term first: it is the large one
-        rows = [sorted(row, key=lambda item, i=i: (item[0] != i, item[0])) for i, row in enumerate(rows)]
+        rows = [
+            [term for term in row if term[0] == i] + [term for term in row if term[0] != i]
+            for i, row in enumerate(rows)
+        ]
         product: dict[tuple[int, int], Any] = {}
 
         def half(i: int, k: int) -> Any:
@@ -215,6 +218,58 @@ class RowUpdate(Kernel):
         updated = keep @ P @ keep.T + r[self.row] * np.outer(gain, gain)
         nis += innovation**2 / (variance if variance >= SMALLEST_VARIANCE else 1.0)
         return [pack_symmetric(updated), delta + gain * innovation, np.array([nis]), scales]
+
+
+@dataclass(frozen=True)
+class AllStatesUpdate(Kernel):
+    """The rows of a sensor that measures every state, in their order: one after another, as `RowUpdate`.
+
+    The C takes two rows at a time, with the same few functions for all of them.
+    """
+
+    rows: tuple[RowUpdate, ...]
+
+    @staticmethod
+    def serves(size: int, columns: list[list[int]], single: list[bool]) -> bool:
+        """Whether it takes these rows: the states each of them reads, and whether it reads one with factor 1."""
+        return size >= 4 and size % 2 == 0 and all(single) and columns == [[j] for j in range(size)]
+
+    @property
+    def reads(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
+        """What the first row reads."""
+        return self.rows[0].reads
+
+    @property
+    def writes(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
+        """What each row writes."""
+        return self.rows[0].writes
+
+    @property
+    def comment(self) -> tuple[str, ...]:  # type: ignore[override]
+        """What the C says."""
+        return ("d = d + K e, P = P - K s K', two rows at a time; measured rows as r K",)
+
+    def names(self) -> tuple[tuple[str, ...], ...]:
+        """Names of the elements it reads."""
+        return self.rows[0].names()
+
+    def scalar(self, *values: list[Any]) -> list[list[Any]]:
+        """The rows in turn."""
+        residual, h, r, _ = values
+        answer = self.rows[0].scalar(*values)
+        for row in self.rows[1:]:
+            p, delta, nis, scales = answer
+            answer = row.scalar(residual, h, r, p, delta, nis, scales)
+            answer[3] = [old if new is None else new for old, new in zip(scales, answer[3], strict=True)]
+        return answer
+
+    def dense(self, *values: Array) -> list[Array]:
+        """The rows in turn, with matrices."""
+        residual, h, r, _ = values
+        answer = self.rows[0].dense(*values)
+        for row in self.rows[1:]:
+            answer = row.dense(residual, h, r, *answer)
+        return answer
 
 
 @dataclass(frozen=True)

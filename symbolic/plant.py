@@ -24,7 +24,7 @@ LOWEST_VARIANCE = 1.0e-12
 Matrix = NDArray[np.float64]
 
 
-class Symbol(ca.SX):  # type: ignore[misc]
+class Symbol(ca.SX):
     """A named CasADi symbol of a plant; hashable, so that it may be a key of a dictionary."""
 
     signal: Signal
@@ -264,7 +264,9 @@ class Plant:
         ModelError
             If it is negative, indefinite, not finite, not square, or given twice or not at all.
         """
-        given = {key: item for key, item in (("density", density), ("variance", variance), ("std", std)) if item is not None}
+        given = {
+            key: item for key, item in (("density", density), ("variance", variance), ("std", std)) if item is not None
+        }
         if len(given) != 1:
             raise ModelError(
                 f"{self.name}: the noise {name!r} has {len(given)} strengths; give exactly one of density= (continuous, "
@@ -277,7 +279,7 @@ class Plant:
         self._books.noises.append(Noise(signal, symbol, keyword == "density", strength, full))
         return symbol
 
-    def dynamics(self, rates: Mapping[Symbol | str, Any]) -> None:
+    def dynamics(self, rates: Mapping[Any, Any]) -> None:
         """Give the rate of each state (continuous plant) or its next value (discrete plant).
 
         Parameters
@@ -355,7 +357,9 @@ class Plant:
         if variance is not None and std is not None:
             raise ModelError(f"{self.name}: {what} has variance= and std=; give one of them")
         if variance is None and std is None and not own_noises:
-            raise ModelError(f"{self.name}: {what} has no noise; give variance= or std=, or use a noise in its expression")
+            raise ModelError(
+                f"{self.name}: {what} has no noise; give variance= or std=, or use a noise in its expression"
+            )
         strength, full, symbolic = None, False, None
         value, keyword = (variance, "variance") if std is None else (std, "std")
         self._own(measurement)
@@ -413,7 +417,7 @@ class Plant:
 
         return discretise(self, method, dt, substeps)
 
-    def step_noise(self, variances: Mapping[Symbol | str, Any]) -> Self:
+    def step_noise(self, variances: Mapping[Any, Any]) -> Self:
         """Add white noise per step to states of a discrete plant; each variance becomes a run-time parameter.
 
         Parameters
@@ -596,7 +600,9 @@ class Plant:
         for noise in self.noises:
             lines.append(f"{noise.signal} {noise.is_density} {noise.strength.tolist()}")
         for sensor in self.sensors:
-            lines.append(f"{sensor.signal} {None if sensor.strength is None else sensor.strength.tolist()} {sensor.doc}")
+            lines.append(
+                f"{sensor.signal} {None if sensor.strength is None else sensor.strength.tolist()} {sensor.doc}"
+            )
             lines += equation_text(sensor.expression, names, longest=10**7)
             if sensor.variance_expression is not None:
                 lines += equation_text(ca.vec(sensor.variance_expression), names, longest=10**7)
@@ -642,7 +648,9 @@ class Plant:
         f = expand(dynamics, name)
         sizes = [f.numel_in(index) for index in range(f.n_in())] + [0, 0]
         if not 1 <= f.n_in() <= 3:
-            raise ModelError(f"{name}: the function {f.name()!r} has {f.n_in()} arguments; it takes (x), (x, u) or (x, u, p)")
+            raise ModelError(
+                f"{name}: the function {f.name()!r} has {f.n_in()} arguments; it takes (x), (x, u) or (x, u, p)"
+            )
         state_names = list(states) if states is not None else [f"x{index}" for index in range(sizes[0])]
         input_names = list(inputs) if inputs is not None else [f"u{index}" for index in range(sizes[1])]
         defaults = dict(parameters or {})
@@ -657,7 +665,9 @@ class Plant:
         arguments.append(ca.vertcat(ca.SX(0, 1), *[plant.parameter(key, value) for key, value in defaults.items()]))
         rates = f.call(arguments[: f.n_in()])[0]
         if rates.numel() != len(symbols):
-            raise ModelError(f"{name}: the function {f.name()!r} gives {rates.numel()} values for {len(symbols)} states")
+            raise ModelError(
+                f"{name}: the function {f.name()!r} gives {rates.numel()} values for {len(symbols)} states"
+            )
         plant.dynamics({symbol: rates[index] for index, symbol in enumerate(symbols)})
         for key, (function, variance) in (sensors or {}).items():
             h = expand(function, name)
@@ -685,7 +695,9 @@ class Plant:
             Noise of the outputs, one sensor for each; without it no sensor is made.
         """
         if not all(hasattr(system, item) for item in ("A", "B", "C", "D", "dt", "state_labels")):
-            raise ModelError(f"{name}: {type(system).__name__} is not a control.StateSpace; convert it with control.ss(...)")
+            raise ModelError(
+                f"{name}: {type(system).__name__} is not a control.StateSpace; convert it with control.ss(...)"
+            )
         outputs_of = list(system.output_labels)
         if isinstance(variance, Mapping):
             absent = [label for label in outputs_of if label not in variance]
@@ -695,7 +707,9 @@ class Plant:
                     f"{name}: the variances name {list(variance)}, the outputs are {outputs_of}; give one for each output"
                 )
         elif variance is not None and np.size(variance) not in (1, len(outputs_of)):
-            raise ModelError(f"{name}: {np.size(variance)} variances are given for {len(outputs_of)} outputs; give 1 or as many")
+            raise ModelError(
+                f"{name}: {np.size(variance)} variances are given for {len(outputs_of)} outputs; give 1 or as many"
+            )
         dt = system.dt
         if dt is True:
             raise ModelError(f"{name}: the discrete system has no numeric time step; give it one (dt=0.01)")
@@ -720,7 +734,15 @@ class Plant:
     # -- inside -------------------------------------------------------------------------------------------------------
 
     def _signal(
-        self, kind: str, name: str, size: int, unit: str, given: Any, default: tuple[float, float], doc: str, angle: bool
+        self,
+        kind: str,
+        name: str,
+        size: int,
+        unit: str,
+        given: Any,
+        default: tuple[float, float],
+        doc: str,
+        angle: bool,
     ) -> Signal:
         check_name(kind, name, self.name)
         if name in self._names():
@@ -753,9 +775,7 @@ class Plant:
         size = symbol.signal.size
         error = 3 if attitude else size
         self._books.states.append(
-            State(
-                symbol.signal, symbol, attitude, slice(start, start + size), slice(error_start, error_start + error)
-            )
+            State(symbol.signal, symbol, attitude, slice(start, start + size), slice(error_start, error_start + error))
         )
         return symbol
 
@@ -780,10 +800,14 @@ class Plant:
         """Return the name of the state that is a key of a dictionary; refuse a symbol that is not this plant's."""
         known = {state.signal.name: state for state in self.states}
         if not isinstance(key, (str, Symbol)):
-            raise ModelError(f"{self.name}: {what} for {key!r}, which is not a state; give states or their names as keys")
+            raise ModelError(
+                f"{self.name}: {what} for {key!r}, which is not a state; give states or their names as keys"
+            )
         name = key if isinstance(key, str) else key.signal.name
         if name not in known or (isinstance(key, Symbol) and key is not known[name].symbol):
-            raise ModelError(f"{self.name}: {what} for {name!r}, which is not a state of this plant; declare it with state()")
+            raise ModelError(
+                f"{self.name}: {what} for {name!r}, which is not a state of this plant; declare it with state()"
+            )
         return name
 
     def _check_noise_kinds(self) -> None:

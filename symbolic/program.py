@@ -351,13 +351,22 @@ class HoldVariances:
     """Keep the diagonal of a packed symmetric matrix between floors and ceilings.
 
     A negative element, or NaN, is refused (NOT_POSITIVE). Above its ceiling c, row and column are scaled by
-    sqrt(c / P_ii), which keeps the matrix definite; below its floor the floor is stored (CLAMPED).
+    sqrt(c / P_ii), which keeps the matrix definite; below its floor the floor is stored (CLAMPED). Any other element
+    beyond sqrt(c_i c_j), or NaN, is refused (OVERFLOW).
     """
 
     target: Place
     size: int
     floor: tuple[float, ...]
     ceiling: tuple[float, ...]
+
+    def limits(self) -> tuple[float, ...]:
+        """Return the largest magnitude of each packed element: sqrt(c_i c_j)."""
+        return tuple(
+            self.ceiling[i] if i == j else math.sqrt(self.ceiling[i] * self.ceiling[j])
+            for i in range(self.size)
+            for j in range(i, self.size)
+        )
 
     def run(self, frame: Frame) -> None:
         packed = np.array(frame.values[self.target], dtype=float)
@@ -383,7 +392,12 @@ class HoldVariances:
                 elif value < low:
                     packed[diagonal[i]] = low
                     frame.raise_to(Status.CLAMPED)
+        limits = self.limits()
+        for value, limit in zip(packed, limits, strict=True):
+            frame.near(abs(float(value)), limit)
         frame.values[self.target] = packed
+        if not np.all(np.abs(packed) <= limits):
+            raise Refused(Status.OVERFLOW)
 
 
 @dataclass(frozen=True)
@@ -419,9 +433,7 @@ class Call:
         for name, argument in self.arguments:
             given = frame.values[argument] if isinstance(argument, Place) else np.array([argument])
             values[Place("in", name)] = given
-        params = {
-            name.removeprefix(prefix): value for name, value in frame.params.items() if name.startswith(prefix)
-        }
+        params = {name.removeprefix(prefix): value for name, value in frame.params.items() if name.startswith(prefix)}
         outcome = run_entry(block, entry, values, params, frame.patches)
         frame.margin = min(frame.margin, outcome.margin)
         if outcome.status < 0:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import casadi as ca
 
 TINY_SQUARE = 1.0e-20
@@ -54,8 +52,3 @@ def matrix(q: ca.SX) -> ca.SX:
         ca.horzcat(2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
         ca.horzcat(2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
     )
-
-
-def cross_matrix(a: Any) -> ca.SX:
-    """Return [a]x, so that [a]x b = a x b."""
-    return ca.skew(a)

@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any, cast
 
 import numpy as np
 
@@ -119,7 +120,7 @@ def make_range(owner: str, what: str, given: object, default: Interval, size: in
     if given is None:
         return (default[0],) * size, (default[1],) * size
     try:
-        low_given, high_given = given  # type: ignore[misc]
+        low_given, high_given = cast(tuple[Any, Any], given)
         low, high = spread(low_given, size), spread(high_given, size)
     except (TypeError, ValueError):
         raise ModelError(f"{owner}: the range of {what} is {given!r}; give it as (lowest, highest)") from None
@@ -133,7 +134,9 @@ def make_range(owner: str, what: str, given: object, default: Interval, size: in
     return low, high
 
 
-def check_default(owner: str, what: str, value: object, low: tuple[float, ...], high: tuple[float, ...]) -> tuple:
+def check_default(
+    owner: str, what: str, value: object, low: tuple[float, ...], high: tuple[float, ...]
+) -> tuple[float, ...]:
     """Return a default as a tuple of floats, or raise a ModelError."""
     size = len(low)
     try:

@@ -17,19 +17,21 @@ from .discretisation import process_covariance, transition
 from .errors import ModelError
 from .estimators import dynamics_equations, is_linear, plant_equations
 from .expressions import numpy_callable
-from .plant import Plant, Symbol, wrap
+from .plant import Plant, wrap
 from .program import Assign, Attempt, Call, Element, Entry, Evaluate, IsSet, Place, Raise, Refuse, Statement, When
 from .signals import Kind, Signal, Status, spread
 
 Array = NDArray[Any]
 
 
-def build(plant: Plant, around: Mapping[Symbol | str, Any], name: str, doc: str, gain: Any) -> Block:
+def build(plant: Plant, around: Mapping[Any, Any], name: str, doc: str, gain: Any) -> Block:
     """Design the gain unless one is given, and assemble the block; see `steady_state_kalman_filter`."""
     if not plant.is_discrete or isinstance(plant.dt, tuple):
         raise ModelError(f"{plant.name}: a steady state needs a constant time step; discretise with dt=0.01, say")
     if not is_linear(plant):
-        raise ModelError(f"{plant.name}: a steady-state filter needs a linear plant; linearise it, or use extended_kalman_filter")
+        raise ModelError(
+            f"{plant.name}: a steady-state filter needs a linear plant; linearise it, or use extended_kalman_filter"
+        )
     if not plant.sensors:
         raise ModelError(f"{plant.name}: an estimator needs a sensor, and this plant has none; add sensor(...)")
     if any(sensor.variance_expression is not None for sensor in plant.sensors):
@@ -66,7 +68,9 @@ def _matrices(plant: Plant) -> tuple[Array, Array, Array, Array]:
         R = ca.SX(ca.DM(sensor.strength)) if sensor.strength is not None else ca.SX(size, size)
         noises = plant.sensor_noises(sensor)
         if noises:
-            N = plant.without_noise(ca.jacobian(plant.folded(sensor.expression), ca.vertcat(*[n.symbol for n in noises])))
+            N = plant.without_noise(
+                ca.jacobian(plant.folded(sensor.expression), ca.vertcat(*[n.symbol for n in noises]))
+            )
             R = R + N @ ca.diagcat(*[ca.SX(ca.DM(noise.strength)) for noise in noises]) @ N.T
         blocks.append(R)
     return numbers(transition(plant)[1]), numbers(ca.jacobian(h, plant.x)), numbers(Q), numbers(ca.diagcat(*blocks))
@@ -99,7 +103,7 @@ def _properties(matrices: tuple[Array, Array, Array, Array], K: Array) -> dict[s
 
 def _assemble(
     plant: Plant,
-    around: Mapping[Symbol | str, Any],
+    around: Mapping[Any, Any],
     name: str,
     doc: str,
     gain: Array,
@@ -114,11 +118,20 @@ def _assemble(
         value = np.clip(spread(nominal.get(signal.name, 0.0), signal.size), signal.low, signal.high)
         default = tuple(float(item) for item in value)
         block.param_signals.append(
-            Signal(f"{signal.name}_0", signal.size, signal.unit, signal.low, signal.high, f"initial {signal.name}", default=default)
+            Signal(
+                f"{signal.name}_0",
+                signal.size,
+                signal.unit,
+                signal.low,
+                signal.high,
+                f"initial {signal.name}",
+                default=default,
+            )
         )
     states = [state.signal.name for state in plant.states]
     body: list[Statement] = [
-        Assign(Place("next", signal.name), Place("param", f"{signal.name}_0"), signal.size) for signal in block.memory_signals
+        Assign(Place("next", signal.name), Place("param", f"{signal.name}_0"), signal.size)
+        for signal in block.memory_signals
     ]
     init = Entry(
         "init", (), (), tuple(body), "Start (or start again) from the parameters; every parameter is checked here.",
@@ -138,8 +151,14 @@ def _assemble(
             [*symbols, *[s for _, s in taken], *[s for _, s in params]],
             [ca.densify(value) for value, _, _ in outputs],
         )
-        reads = [*places, *[((Place("in", s.name), s.size),) for s, _ in taken], *[((Place("param", s.name), s.size),) for s, _ in params]]
-        return Evaluate(function, tuple(reads), tuple(t for _, t, _ in outputs), tuple(n for _, _, n in outputs), tuple(comment))
+        reads = [
+            *places,
+            *[((Place("in", s.name), s.size),) for s, _ in taken],
+            *[((Place("param", s.name), s.size),) for s, _ in params],
+        ]
+        return Evaluate(
+            function, tuple(reads), tuple(t for _, t, _ in outputs), tuple(n for _, _, n in outputs), tuple(comment)
+        )
 
     judge = Refuse(Status.OVERFLOW, block.judge_memory(states))
     following, _ = transition(plant)
@@ -176,11 +195,17 @@ def _assemble(
     zeros = (Assign(Place("out", "update.innovation"), 0.0, m),)
     given = tuple((signal.name, Place("in", signal.name)) for signal in update.inputs)
     attempt = Attempt(
-        (Call("update", given, Place("out", "update")),), Place("out", "status_update"), (), (*zeros, Raise(Status.SKIPPED))
+        (Call("update", given, Place("out", "update")),),
+        Place("out", "status_update"),
+        (),
+        (*zeros, Raise(Status.SKIPPED)),
     )
     call = Call("predict", tuple((s.name, Place("in", s.name)) for s, _ in inputs))
     when = When(
-        IsSet(Element(Place("in", "has_readings"))), (attempt,), (*zeros, Assign(Place("out", "status_update"), 0.0, 1)), "readings"
+        IsSet(Element(Place("in", "has_readings"))),
+        (attempt,),
+        (*zeros, Assign(Place("out", "status_update"), 0.0, 1)),
+        "readings",
     )
     step = Entry(
         "step", (*[s for s, _ in inputs], flag, *[s for s, _ in readings]), (status, group), (call, when),
@@ -201,7 +226,9 @@ def _assemble(
     oracle = _oracle(plant, block, gain)
     block.oracle = oracle
     x0 = np.concatenate([np.asarray(signal.default) for signal in block.param_signals[len(params) :]])
-    u0 = np.concatenate([np.zeros(0), *[np.clip(spread(nominal.get(s.name, 0.0), s.size), s.low, s.high) for s, _ in inputs]])
+    u0 = np.concatenate(
+        [np.zeros(0), *[np.clip(spread(nominal.get(s.name, 0.0), s.size), s.low, s.high) for s, _ in inputs]]
+    )
 
     def calls(rng: Any, steps: int) -> Iterator[tuple[str, dict[str, Any]]]:
         return oracle.exercise(rng, steps, x0, u0, np.sqrt(np.diag(matrices[2])), np.linalg.cholesky(matrices[3]))
@@ -218,10 +245,16 @@ def _oracle(plant: Plant, block: Block, gain: Array) -> SteadyStateOracle:
     h = plant.without_noise(ca.vertcat(*[plant.folded(sensor.expression) for sensor in plant.sensors]))
     following = transition(plant)[0]
     return SteadyStateOracle(
-        states=tuple((s.signal.name, s.signal.size, s.signal.angle, np.array(s.signal.low), np.array(s.signal.high)) for s in plant.states),
-        inputs=tuple((s.signal.name, s.signal.size, np.array(s.signal.low), np.array(s.signal.high)) for s in plant.inputs),
+        states=tuple(
+            (s.signal.name, s.signal.size, s.signal.angle, np.array(s.signal.low), np.array(s.signal.high))
+            for s in plant.states
+        ),
+        inputs=tuple(
+            (s.signal.name, s.signal.size, np.array(s.signal.low), np.array(s.signal.high)) for s in plant.inputs
+        ),
         sensors=tuple(
-            (s.signal.name, s.signal.size, s.signal.angle, np.array(s.signal.low), np.array(s.signal.high)) for s in plant.sensors
+            (s.signal.name, s.signal.size, s.signal.angle, np.array(s.signal.low), np.array(s.signal.high))
+            for s in plant.sensors
         ),
         params=tuple((s.name, np.array(s.low), np.array(s.high)) for s in block.param_signals),
         plant_params=tuple(symbol.signal.name for symbol in plant.parameters),

@@ -1,4 +1,4 @@
-/* attitude_ekf: see attitude_ekf.h. Written by plantc 0.1.0 from model 8533cbb0. */
+/* attitude_ekf: see attitude_ekf.h. Written by plantc 0.1.0 from model 057ccd77. */
 #include "attitude_ekf.h"
 
 #include <math.h>
@@ -13,17 +13,23 @@ static attitude_ekf_status_t attitude_ekf_higher(attitude_ekf_status_t first, at
 }
 
 /* Keeps the variances between floor and ceiling; called only when one is outside. Scaling row and column together keeps
- * the matrix positive definite. */
+ * the matrix positive definite. What lies beside the diagonal is then compared with its bounds. */
 static attitude_ekf_status_t attitude_ekf_hold_variances(float covariance[21])
 {
     static const float lowest[6] = { 1.0e-20f, 1.0e-20f, 1.0e-20f, 1.0e-20f, 1.0e-20f, 1.0e-20f };
     static const float highest[6] = { 10.0f, 10.0f, 10.0f, 1.0f, 1.0f, 1.0f };
+    static const float limit[21] = {
+        10.0f, 10.0f, 10.0f, 3.1622777f, 3.1622777f, 3.1622777f,
+        10.0f, 10.0f, 3.1622777f, 3.1622777f, 3.1622777f, 10.0f,
+        3.1622777f, 3.1622777f, 3.1622777f, 1.0f, 1.0f, 1.0f,
+        1.0f, 1.0f, 1.0f
+    };
     attitude_ekf_status_t status = ATTITUDE_EKF_OK;
     uint32_t at = 0U;
 
     for (uint32_t i = 0U; i < 6U; i++)
     {
-        if (!(covariance[at] > 0.0f))
+        if (!(covariance[at] >= 0.0f))
         {
             status = ATTITUDE_EKF_NOT_POSITIVE;
         }
@@ -63,7 +69,37 @@ static attitude_ekf_status_t attitude_ekf_hold_variances(float covariance[21])
         }
         at = at + (6U - i);
     }
+    for (uint32_t i = 0U; i < 21U; i++)
+    {
+        if ((status >= ATTITUDE_EKF_OK) && !(fabsf(covariance[i]) <= limit[i]))
+        {
+            status = ATTITUDE_EKF_OVERFLOW;
+        }
+    }
     return status;
+}
+
+/* Whether a covariance is within its bounds beyond doubt: a sum of magnitudes below a bound bounds each of them,
+ * and is not below it where one is NaN. */
+static bool attitude_ekf_is_bounded(const float covariance[21])
+{
+    float sum_0 = 0.0f;
+    float sum_1 = 0.0f;
+    float sum_2 = 0.0f;
+
+    for (uint32_t i = 0U; i < 21U; i = i + 3U)
+    {
+        sum_0 = sum_0 + fabsf(covariance[i]);
+        sum_1 = sum_1 + fabsf(covariance[i + 1U]);
+        sum_2 = sum_2 + fabsf(covariance[i + 2U]);
+    }
+    return (((sum_0 + sum_1) + (sum_2)) <= 1.0f)
+           && (covariance[0] >= 1.0e-20f)
+           && (covariance[6] >= 1.0e-20f)
+           && (covariance[11] >= 1.0e-20f)
+           && (covariance[15] >= 1.0e-20f)
+           && (covariance[18] >= 1.0e-20f)
+           && (covariance[20] >= 1.0e-20f);
 }
 
 /* 4 additions, 8 multiplications, 1 division, sqrtf. */
@@ -133,12 +169,7 @@ static attitude_ekf_status_t attitude_ekf_init_core(attitude_ekf_state_t *after,
             after->rejected_magnetometer = 0U;
 
             /* judge, then commit */
-            if (!((after->covariance[0] >= 1.0e-20f) && (after->covariance[0] <= 10.0f)
-                  && (after->covariance[6] >= 1.0e-20f) && (after->covariance[6] <= 10.0f)
-                  && (after->covariance[11] >= 1.0e-20f) && (after->covariance[11] <= 10.0f)
-                  && (after->covariance[15] >= 1.0e-20f) && (after->covariance[15] <= 1.0f)
-                  && (after->covariance[18] >= 1.0e-20f) && (after->covariance[18] <= 1.0f)
-                  && (after->covariance[20] >= 1.0e-20f) && (after->covariance[20] <= 1.0f)))
+            if (!attitude_ekf_is_bounded(after->covariance))
             {
                 status = attitude_ekf_hold_variances(after->covariance);
             }
@@ -400,12 +431,7 @@ static attitude_ekf_status_t attitude_ekf_predict_core(const attitude_ekf_state_
         }
 
         /* judge, then commit */
-        if (!((after->covariance[0] >= 1.0e-20f) && (after->covariance[0] <= 10.0f)
-              && (after->covariance[6] >= 1.0e-20f) && (after->covariance[6] <= 10.0f)
-              && (after->covariance[11] >= 1.0e-20f) && (after->covariance[11] <= 10.0f)
-              && (after->covariance[15] >= 1.0e-20f) && (after->covariance[15] <= 1.0f)
-              && (after->covariance[18] >= 1.0e-20f) && (after->covariance[18] <= 1.0f)
-              && (after->covariance[20] >= 1.0e-20f) && (after->covariance[20] <= 1.0f)))
+        if (!attitude_ekf_is_bounded(after->covariance))
         {
             status = attitude_ekf_hold_variances(after->covariance);
         }
@@ -413,14 +439,7 @@ static attitude_ekf_status_t attitude_ekf_predict_core(const attitude_ekf_state_
         {
             if (!((fabsf(after->q[0]) <= 1.01f) && (fabsf(after->q[1]) <= 1.01f) && (fabsf(after->q[2]) <= 1.01f)
                   && (fabsf(after->q[3]) <= 1.01f) && (fabsf(after->bias[0]) <= 1.0f) && (fabsf(after->bias[1]) <= 1.0f)
-                  && (fabsf(after->bias[2]) <= 1.0f) && (fabsf(after->covariance[1]) <= 10.0f)
-                  && (fabsf(after->covariance[2]) <= 10.0f) && (fabsf(after->covariance[3]) <= 3.1622777f)
-                  && (fabsf(after->covariance[4]) <= 3.1622777f) && (fabsf(after->covariance[5]) <= 3.1622777f)
-                  && (fabsf(after->covariance[7]) <= 10.0f) && (fabsf(after->covariance[8]) <= 3.1622777f)
-                  && (fabsf(after->covariance[9]) <= 3.1622777f) && (fabsf(after->covariance[10]) <= 3.1622777f)
-                  && (fabsf(after->covariance[12]) <= 3.1622777f) && (fabsf(after->covariance[13]) <= 3.1622777f)
-                  && (fabsf(after->covariance[14]) <= 3.1622777f) && (fabsf(after->covariance[16]) <= 1.0f)
-                  && (fabsf(after->covariance[17]) <= 1.0f) && (fabsf(after->covariance[19]) <= 1.0f)))
+                  && (fabsf(after->bias[2]) <= 1.0f)))
             {
                 status = ATTITUDE_EKF_OVERFLOW;
             }
@@ -743,12 +762,7 @@ static attitude_ekf_status_t attitude_ekf_update_accelerometer_core(const attitu
                 after->rejected_accelerometer = 0U;
 
                 /* judge, then commit */
-                if (!((after->covariance[0] >= 1.0e-20f) && (after->covariance[0] <= 10.0f)
-                      && (after->covariance[6] >= 1.0e-20f) && (after->covariance[6] <= 10.0f)
-                      && (after->covariance[11] >= 1.0e-20f) && (after->covariance[11] <= 10.0f)
-                      && (after->covariance[15] >= 1.0e-20f) && (after->covariance[15] <= 1.0f)
-                      && (after->covariance[18] >= 1.0e-20f) && (after->covariance[18] <= 1.0f)
-                      && (after->covariance[20] >= 1.0e-20f) && (after->covariance[20] <= 1.0f)))
+                if (!attitude_ekf_is_bounded(after->covariance))
                 {
                     status = attitude_ekf_hold_variances(after->covariance);
                 }
@@ -757,15 +771,7 @@ static attitude_ekf_status_t attitude_ekf_update_accelerometer_core(const attitu
                     if (!((fabsf(after->q[0]) <= 1.01f) && (fabsf(after->q[1]) <= 1.01f)
                           && (fabsf(after->q[2]) <= 1.01f) && (fabsf(after->q[3]) <= 1.01f)
                           && (fabsf(after->bias[0]) <= 1.0f) && (fabsf(after->bias[1]) <= 1.0f)
-                          && (fabsf(after->bias[2]) <= 1.0f) && (fabsf(after->covariance[1]) <= 10.0f)
-                          && (fabsf(after->covariance[2]) <= 10.0f) && (fabsf(after->covariance[3]) <= 3.1622777f)
-                          && (fabsf(after->covariance[4]) <= 3.1622777f) && (fabsf(after->covariance[5]) <= 3.1622777f)
-                          && (fabsf(after->covariance[7]) <= 10.0f) && (fabsf(after->covariance[8]) <= 3.1622777f)
-                          && (fabsf(after->covariance[9]) <= 3.1622777f) && (fabsf(after->covariance[10]) <= 3.1622777f)
-                          && (fabsf(after->covariance[12]) <= 3.1622777f)
-                          && (fabsf(after->covariance[13]) <= 3.1622777f)
-                          && (fabsf(after->covariance[14]) <= 3.1622777f) && (fabsf(after->covariance[16]) <= 1.0f)
-                          && (fabsf(after->covariance[17]) <= 1.0f) && (fabsf(after->covariance[19]) <= 1.0f)))
+                          && (fabsf(after->bias[2]) <= 1.0f)))
                     {
                         status = ATTITUDE_EKF_OVERFLOW;
                     }
@@ -1115,12 +1121,7 @@ static attitude_ekf_status_t attitude_ekf_update_magnetometer_core(const attitud
                 after->rejected_magnetometer = 0U;
 
                 /* judge, then commit */
-                if (!((after->covariance[0] >= 1.0e-20f) && (after->covariance[0] <= 10.0f)
-                      && (after->covariance[6] >= 1.0e-20f) && (after->covariance[6] <= 10.0f)
-                      && (after->covariance[11] >= 1.0e-20f) && (after->covariance[11] <= 10.0f)
-                      && (after->covariance[15] >= 1.0e-20f) && (after->covariance[15] <= 1.0f)
-                      && (after->covariance[18] >= 1.0e-20f) && (after->covariance[18] <= 1.0f)
-                      && (after->covariance[20] >= 1.0e-20f) && (after->covariance[20] <= 1.0f)))
+                if (!attitude_ekf_is_bounded(after->covariance))
                 {
                     status = attitude_ekf_hold_variances(after->covariance);
                 }
@@ -1129,15 +1130,7 @@ static attitude_ekf_status_t attitude_ekf_update_magnetometer_core(const attitud
                     if (!((fabsf(after->q[0]) <= 1.01f) && (fabsf(after->q[1]) <= 1.01f)
                           && (fabsf(after->q[2]) <= 1.01f) && (fabsf(after->q[3]) <= 1.01f)
                           && (fabsf(after->bias[0]) <= 1.0f) && (fabsf(after->bias[1]) <= 1.0f)
-                          && (fabsf(after->bias[2]) <= 1.0f) && (fabsf(after->covariance[1]) <= 10.0f)
-                          && (fabsf(after->covariance[2]) <= 10.0f) && (fabsf(after->covariance[3]) <= 3.1622777f)
-                          && (fabsf(after->covariance[4]) <= 3.1622777f) && (fabsf(after->covariance[5]) <= 3.1622777f)
-                          && (fabsf(after->covariance[7]) <= 10.0f) && (fabsf(after->covariance[8]) <= 3.1622777f)
-                          && (fabsf(after->covariance[9]) <= 3.1622777f) && (fabsf(after->covariance[10]) <= 3.1622777f)
-                          && (fabsf(after->covariance[12]) <= 3.1622777f)
-                          && (fabsf(after->covariance[13]) <= 3.1622777f)
-                          && (fabsf(after->covariance[14]) <= 3.1622777f) && (fabsf(after->covariance[16]) <= 1.0f)
-                          && (fabsf(after->covariance[17]) <= 1.0f) && (fabsf(after->covariance[19]) <= 1.0f)))
+                          && (fabsf(after->bias[2]) <= 1.0f)))
                     {
                         status = ATTITUDE_EKF_OVERFLOW;
                     }
@@ -1180,53 +1173,15 @@ static attitude_ekf_status_t attitude_ekf_inflate_core(const attitude_ekf_state_
     else
     {
         /* P = factor P */
+        for (uint32_t i = 0U; i < 21U; i++)
         {
-            after->covariance[0] = factor * before->covariance[0];
-            after->covariance[1] = factor * before->covariance[1];
-            after->covariance[2] = factor * before->covariance[2];
-            after->covariance[3] = factor * before->covariance[3];
-            after->covariance[4] = factor * before->covariance[4];
-            after->covariance[5] = factor * before->covariance[5];
-            after->covariance[6] = factor * before->covariance[6];
-            after->covariance[7] = factor * before->covariance[7];
-            after->covariance[8] = factor * before->covariance[8];
-            after->covariance[9] = factor * before->covariance[9];
-            after->covariance[10] = factor * before->covariance[10];
-            after->covariance[11] = factor * before->covariance[11];
-            after->covariance[12] = factor * before->covariance[12];
-            after->covariance[13] = factor * before->covariance[13];
-            after->covariance[14] = factor * before->covariance[14];
-            after->covariance[15] = factor * before->covariance[15];
-            after->covariance[16] = factor * before->covariance[16];
-            after->covariance[17] = factor * before->covariance[17];
-            after->covariance[18] = factor * before->covariance[18];
-            after->covariance[19] = factor * before->covariance[19];
-            after->covariance[20] = factor * before->covariance[20];
+        after->covariance[i] = factor * before->covariance[i];
         }
 
         /* judge, then commit */
-        if (!((after->covariance[0] >= 1.0e-20f) && (after->covariance[0] <= 10.0f)
-              && (after->covariance[6] >= 1.0e-20f) && (after->covariance[6] <= 10.0f)
-              && (after->covariance[11] >= 1.0e-20f) && (after->covariance[11] <= 10.0f)
-              && (after->covariance[15] >= 1.0e-20f) && (after->covariance[15] <= 1.0f)
-              && (after->covariance[18] >= 1.0e-20f) && (after->covariance[18] <= 1.0f)
-              && (after->covariance[20] >= 1.0e-20f) && (after->covariance[20] <= 1.0f)))
+        if (!attitude_ekf_is_bounded(after->covariance))
         {
             status = attitude_ekf_hold_variances(after->covariance);
-        }
-        if (status >= ATTITUDE_EKF_OK)
-        {
-            if (!((fabsf(after->covariance[1]) <= 10.0f) && (fabsf(after->covariance[2]) <= 10.0f)
-                  && (fabsf(after->covariance[3]) <= 3.1622777f) && (fabsf(after->covariance[4]) <= 3.1622777f)
-                  && (fabsf(after->covariance[5]) <= 3.1622777f) && (fabsf(after->covariance[7]) <= 10.0f)
-                  && (fabsf(after->covariance[8]) <= 3.1622777f) && (fabsf(after->covariance[9]) <= 3.1622777f)
-                  && (fabsf(after->covariance[10]) <= 3.1622777f) && (fabsf(after->covariance[12]) <= 3.1622777f)
-                  && (fabsf(after->covariance[13]) <= 3.1622777f) && (fabsf(after->covariance[14]) <= 3.1622777f)
-                  && (fabsf(after->covariance[16]) <= 1.0f) && (fabsf(after->covariance[17]) <= 1.0f)
-                  && (fabsf(after->covariance[19]) <= 1.0f)))
-            {
-                status = ATTITUDE_EKF_OVERFLOW;
-            }
         }
     }
     return status;
@@ -1491,7 +1446,7 @@ attitude_ekf_status_t attitude_ekf_inflate(attitude_ekf_state_t *state, const at
 
 const char *attitude_ekf_model(void)
 {
-    return "8533cbb0";
+    return "057ccd77";
 }
 
 const char *attitude_ekf_status_text(attitude_ekf_status_t status)
@@ -1522,7 +1477,7 @@ const char *attitude_ekf_status_text(attitude_ekf_status_t status)
             text = "a parameter is outside its range, or not a number";
             break;
         case ATTITUDE_EKF_NOT_POSITIVE:
-            text = "a variance would not be positive";
+            text = "a variance would be negative, or of an innovation not positive";
             break;
         case ATTITUDE_EKF_OVERFLOW:
             text = "the result would leave its range";

@@ -1,4 +1,4 @@
-/* How to call attitude_ekf: an example to copy from. Written by plantc 0.1.0 from model 8533cbb0.
+/* How to call attitude_ekf: an example to copy from. Written by plantc 0.1.0 from model 057ccd77.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  */
 #include "attitude_ekf.h"

@@ -1,4 +1,4 @@
-/* pendulum_ekf: see pendulum_ekf.h. Written by plantc 0.1.0 from model e2942631. */
+/* pendulum_ekf: see pendulum_ekf.h. Written by plantc 0.1.0 from model 3c95fd5c. */
 #include "pendulum_ekf.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@ static pendulum_ekf_status_t pendulum_ekf_higher(pendulum_ekf_status_t first, pe
 }
 
 /* Keeps the variances between floor and ceiling; called only when one is outside. Scaling row and column together keeps
- * the matrix positive definite. */
+ * the matrix positive definite. What lies beside the diagonal is then compared with its bounds. */
 static pendulum_ekf_status_t pendulum_ekf_hold_variances(float covariance[3])
 {
     pendulum_ekf_status_t status = PENDULUM_EKF_OK;
@@ -21,7 +21,7 @@ static pendulum_ekf_status_t pendulum_ekf_hold_variances(float covariance[3])
 
     for (uint32_t i = 0U; i < 2U; i++)
     {
-        if (!(covariance[at] > 0.0f))
+        if (!(covariance[at] >= 0.0f))
         {
             status = PENDULUM_EKF_NOT_POSITIVE;
         }
@@ -61,7 +61,33 @@ static pendulum_ekf_status_t pendulum_ekf_hold_variances(float covariance[3])
         }
         at = at + (2U - i);
     }
+    for (uint32_t i = 0U; i < 3U; i++)
+    {
+        if ((status >= PENDULUM_EKF_OK) && !(fabsf(covariance[i]) <= 1.0e9f))
+        {
+            status = PENDULUM_EKF_OVERFLOW;
+        }
+    }
     return status;
+}
+
+/* Whether a covariance is within its bounds beyond doubt: a sum of magnitudes below a bound bounds each of them,
+ * and is not below it where one is NaN. */
+static bool pendulum_ekf_is_bounded(const float covariance[3])
+{
+    float sum_0 = 0.0f;
+    float sum_1 = 0.0f;
+    float sum_2 = 0.0f;
+
+    for (uint32_t i = 0U; i < 3U; i = i + 3U)
+    {
+        sum_0 = sum_0 + fabsf(covariance[i]);
+        sum_1 = sum_1 + fabsf(covariance[i + 1U]);
+        sum_2 = sum_2 + fabsf(covariance[i + 2U]);
+    }
+    return (((sum_0 + sum_1) + (sum_2)) <= 1.0e9f)
+           && (covariance[0] >= 1.0e-20f)
+           && (covariance[2] >= 1.0e-20f);
 }
 
 static pendulum_ekf_status_t pendulum_ekf_init_core(pendulum_ekf_state_t *after, const pendulum_ekf_params_t *params)
@@ -92,8 +118,7 @@ static pendulum_ekf_status_t pendulum_ekf_init_core(pendulum_ekf_state_t *after,
         after->rejected_encoder = 0U;
 
         /* judge, then commit */
-        if (!((after->covariance[0] >= 1.0e-20f) && (after->covariance[0] <= 1.0e9f)
-              && (after->covariance[2] >= 1.0e-20f) && (after->covariance[2] <= 1.0e9f)))
+        if (!pendulum_ekf_is_bounded(after->covariance))
         {
             status = pendulum_ekf_hold_variances(after->covariance);
         }
@@ -148,15 +173,13 @@ static pendulum_ekf_status_t pendulum_ekf_predict_core(const pendulum_ekf_state_
         }
 
         /* judge, then commit */
-        if (!((after->covariance[0] >= 1.0e-20f) && (after->covariance[0] <= 1.0e9f)
-              && (after->covariance[2] >= 1.0e-20f) && (after->covariance[2] <= 1.0e9f)))
+        if (!pendulum_ekf_is_bounded(after->covariance))
         {
             status = pendulum_ekf_hold_variances(after->covariance);
         }
         if (status >= PENDULUM_EKF_OK)
         {
-            if (!((fabsf(after->theta) <= 3.15f) && (fabsf(after->omega) <= 100.0f)
-                  && (fabsf(after->covariance[1]) <= 1.0e9f)))
+            if (!((fabsf(after->theta) <= 3.15f) && (fabsf(after->omega) <= 100.0f)))
             {
                 status = PENDULUM_EKF_OVERFLOW;
             }
@@ -231,15 +254,13 @@ static pendulum_ekf_status_t pendulum_ekf_update_encoder_core(const pendulum_ekf
                 after->rejected_encoder = 0U;
 
                 /* judge, then commit */
-                if (!((after->covariance[0] >= 1.0e-20f) && (after->covariance[0] <= 1.0e9f)
-                      && (after->covariance[2] >= 1.0e-20f) && (after->covariance[2] <= 1.0e9f)))
+                if (!pendulum_ekf_is_bounded(after->covariance))
                 {
                     status = pendulum_ekf_hold_variances(after->covariance);
                 }
                 if (status >= PENDULUM_EKF_OK)
                 {
-                    if (!((fabsf(after->theta) <= 3.15f) && (fabsf(after->omega) <= 100.0f)
-                          && (fabsf(after->covariance[1]) <= 1.0e9f)))
+                    if (!((fabsf(after->theta) <= 3.15f) && (fabsf(after->omega) <= 100.0f)))
                     {
                         status = PENDULUM_EKF_OVERFLOW;
                     }
@@ -283,17 +304,9 @@ static pendulum_ekf_status_t pendulum_ekf_inflate_core(const pendulum_ekf_state_
         }
 
         /* judge, then commit */
-        if (!((after->covariance[0] >= 1.0e-20f) && (after->covariance[0] <= 1.0e9f)
-              && (after->covariance[2] >= 1.0e-20f) && (after->covariance[2] <= 1.0e9f)))
+        if (!pendulum_ekf_is_bounded(after->covariance))
         {
             status = pendulum_ekf_hold_variances(after->covariance);
-        }
-        if (status >= PENDULUM_EKF_OK)
-        {
-            if (!(fabsf(after->covariance[1]) <= 1.0e9f))
-            {
-                status = PENDULUM_EKF_OVERFLOW;
-            }
         }
     }
     return status;
@@ -451,7 +464,7 @@ pendulum_ekf_status_t pendulum_ekf_inflate(pendulum_ekf_state_t *state, const pe
 
 const char *pendulum_ekf_model(void)
 {
-    return "e2942631";
+    return "3c95fd5c";
 }
 
 const char *pendulum_ekf_status_text(pendulum_ekf_status_t status)
@@ -482,7 +495,7 @@ const char *pendulum_ekf_status_text(pendulum_ekf_status_t status)
             text = "a parameter is outside its range, or not a number";
             break;
         case PENDULUM_EKF_NOT_POSITIVE:
-            text = "a variance would not be positive";
+            text = "a variance would be negative, or of an innovation not positive";
             break;
         case PENDULUM_EKF_OVERFLOW:
             text = "the result would leave its range";

@@ -1,4 +1,4 @@
-/* Test vectors of pendulum_ekf with their runner. Written by plantc 0.1.0 from model e2942631.
+/* Test vectors of pendulum_ekf with their runner. Written by plantc 0.1.0 from model 3c95fd5c.
  *
  * Each call starts from a stated memory; what it gives is compared with what the Python model gave, in units of the
  * natural size of each field. Build with pendulum_ekf.c; returns 0 if all agree. For hosts: it prints.
@@ -36,8 +36,6 @@ static const pendulum_ekf_state_t memories[] = {
     {-3.07197f, -3.8349f, {0.000523065f, 0.00495566f, 0.0661263f}, 0U},
     {1.65422f, -2.50961f, {0.0000378832f, 0.000541728f, 0.0217881f}, 0U},
     {1.74099f, -100.0f, {0.0000465158f, 0.000785892f, 0.0307252f}, 0U},
-    {-1.88273f, 0.435293f, {2.42777e7f, 2.03585e8f, 2.04067e10f}, 0U},
-    {-1.85116f, 1.73687f, {1.6118e8f, 3.74841e8f, 1.0e9f}, 0U},
     {2.48267f, 2.61783f, {0.0000322289f, 0.000583222f, 0.027617f}, 0U},
     {2.99157f, -100.0f, {0.0000506933f, 0.000582844f, 0.0238039f}, 0U},
     {1.66189f, -2.39988f, {0.000060987f, 0.000872111f, 0.0265126f}, 0U},
@@ -45,9 +43,7 @@ static const pendulum_ekf_state_t memories[] = {
     {2.37008f, 3.18786f, {0.0000393126f, 0.000501387f, 0.0206781f}, 0U},
     {2.42175f, 2.92433f, {0.0000615668f, 0.000899914f, 0.0273923f}, 0U},
     {2.61882f, -100.0f, {0.0000456891f, 0.000818636f, 0.0265896f}, 0U},
-    {3.07796f, -0.306934f, {0.0000442756f, 0.000721586f, 0.0254381f}, 0U},
-    {1.25202f, -4.58202f, {6.6345e7f, 7.80864e8f, 2.4472e10f}, 0U},
-    {1.25202f, -4.58202f, {1.12611e8f, 2.0565e8f, 1.0e9f}, 0U}
+    {3.07796f, -0.306934f, {0.0000442756f, 0.000721586f, 0.0254381f}, 0U}
 };
 
 /* The natural size of an error in each field of the memory. */
@@ -63,8 +59,7 @@ static const pendulum_ekf_predict_in_t predict_inputs[] = {
     {-0.108527f, 0.0841023f},
     {-0.0388779f, 0.0887095f},
     {NAN, 0.0233736f},
-    {0.193086f, 0.0231053f},
-    {-0.0364567f, 0.0725356f}
+    {0.193086f, 0.0231053f}
 };
 
 static const pendulum_ekf_update_encoder_in_t update_encoder_inputs[] = {
@@ -125,8 +120,7 @@ static const pendulum_ekf_step_out_t step_outputs[] = {
 
 static const pendulum_ekf_inflate_in_t inflate_inputs[] = {
     {1.6073f},
-    {NAN},
-    {1.69736f}
+    {NAN}
 };
 
 enum entry
@@ -177,15 +171,13 @@ static const struct vector vectors[] = {
     { ENTRY_INIT, 0, 0, 1, 0, 0, PENDULUM_EKF_BAD_PARAM },
     { ENTRY_PREDICT, 25, 2, 0, 25, 0, PENDULUM_EKF_BAD_INPUT },
     { ENTRY_PREDICT, 26, 3, 0, 26, 0, PENDULUM_EKF_OVERFLOW },
-    { ENTRY_PREDICT, 27, 4, 0, 28, 0, PENDULUM_EKF_CLAMPED },
-    { ENTRY_UPDATE_ENCODER, 29, 1, 0, 29, 1, PENDULUM_EKF_BAD_INPUT },
-    { ENTRY_UPDATE_ENCODER, 30, 2, 0, 30, 1, PENDULUM_EKF_OVERFLOW },
-    { ENTRY_UPDATE_ENCODER, 31, 3, 2, 31, 1, PENDULUM_EKF_NOT_POSITIVE },
-    { ENTRY_STEP, 32, 19, 0, 32, 1, PENDULUM_EKF_BAD_INPUT },
-    { ENTRY_STEP, 33, 20, 0, 34, 15, PENDULUM_EKF_SKIPPED },
-    { ENTRY_STEP, 35, 21, 0, 35, 1, PENDULUM_EKF_OVERFLOW },
-    { ENTRY_INFLATE, 36, 1, 0, 36, 0, PENDULUM_EKF_BAD_INPUT },
-    { ENTRY_INFLATE, 37, 2, 0, 38, 0, PENDULUM_EKF_CLAMPED }
+    { ENTRY_UPDATE_ENCODER, 27, 1, 0, 27, 1, PENDULUM_EKF_BAD_INPUT },
+    { ENTRY_UPDATE_ENCODER, 28, 2, 0, 28, 1, PENDULUM_EKF_OVERFLOW },
+    { ENTRY_UPDATE_ENCODER, 29, 3, 2, 29, 1, PENDULUM_EKF_NOT_POSITIVE },
+    { ENTRY_STEP, 30, 19, 0, 30, 1, PENDULUM_EKF_BAD_INPUT },
+    { ENTRY_STEP, 31, 20, 0, 32, 15, PENDULUM_EKF_SKIPPED },
+    { ENTRY_STEP, 33, 21, 0, 33, 1, PENDULUM_EKF_OVERFLOW },
+    { ENTRY_INFLATE, 34, 1, 0, 34, 0, PENDULUM_EKF_BAD_INPUT }
 };
 
 static int differs(float value, float expected, float size)

@@ -1,4 +1,4 @@
-/* How to call quadrotor_ekf: an example to copy from. Written by plantc 0.1.0 from model 0b19ac1c.
+/* How to call quadrotor_ekf: an example to copy from. Written by plantc 0.1.0 from model bb7582df.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  */
 #include "quadrotor_ekf.h"

@@ -1,6 +1,6 @@
 /* quadrotor_ekf: Extended Kalman filter of the plant "quadrotor", in double precision.
  *
- * Written by plantc 0.1.0 from model 0b19ac1c. Do not edit: change the model, export again.
+ * Written by plantc 0.1.0 from model bb7582df. Do not edit: change the model, export again.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  *
  *    x' = vx
@@ -60,7 +60,7 @@ typedef enum
     QUADROTOR_EKF_RECOVERED = 4,       /* gated too often in a row: P inflated, reading taken without gate */
     QUADROTOR_EKF_BAD_INPUT = -1,      /* an input is outside its range, or not a number */
     QUADROTOR_EKF_BAD_PARAM = -2,      /* a parameter is outside its range, or not a number */
-    QUADROTOR_EKF_NOT_POSITIVE = -3,   /* a variance would not be positive */
+    QUADROTOR_EKF_NOT_POSITIVE = -3,   /* a variance would be negative, or of an innovation not positive */
     QUADROTOR_EKF_OVERFLOW = -4        /* the result would leave its range */
 } quadrotor_ekf_status_t;
 

@@ -1,4 +1,4 @@
-/* Test vectors of quadrotor_ekf with their runner. Written by plantc 0.1.0 from model 0b19ac1c.
+/* Test vectors of quadrotor_ekf with their runner. Written by plantc 0.1.0 from model bb7582df.
  *
  * Each call starts from a stated memory; what it gives is compared with what the Python model gave, in units of the
  * natural size of each field. Build with quadrotor_ekf.c; returns 0 if all agree. For hosts: it prints.

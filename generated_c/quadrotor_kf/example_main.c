@@ -1,4 +1,4 @@
-/* How to call quadrotor_kf: an example to copy from. Written by plantc 0.1.0 from model e2e766d7.
+/* How to call quadrotor_kf: an example to copy from. Written by plantc 0.1.0 from model 311c7133.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  */
 #include "quadrotor_kf.h"

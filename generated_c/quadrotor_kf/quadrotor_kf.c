@@ -1,4 +1,4 @@
-/* quadrotor_kf: see quadrotor_kf.h. Written by plantc 0.1.0 from model e2e766d7. */
+/* quadrotor_kf: see quadrotor_kf.h. Written by plantc 0.1.0 from model 311c7133. */
 #include "quadrotor_kf.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@ static quadrotor_kf_status_t quadrotor_kf_higher(quadrotor_kf_status_t first, qu
 }
 
 /* Keeps the variances between floor and ceiling; called only when one is outside. Scaling row and column together keeps
- * the matrix positive definite. */
+ * the matrix positive definite. What lies beside the diagonal is then compared with its bounds. */
 static quadrotor_kf_status_t quadrotor_kf_hold_variances(double covariance[78])
 {
     quadrotor_kf_status_t status = QUADROTOR_KF_OK;
@@ -21,7 +21,7 @@ static quadrotor_kf_status_t quadrotor_kf_hold_variances(double covariance[78])
 
     for (uint32_t i = 0U; i < 12U; i++)
     {
-        if (!(covariance[at] > 0.0))
+        if (!(covariance[at] >= 0.0))
         {
             status = QUADROTOR_KF_NOT_POSITIVE;
         }
@@ -61,7 +61,399 @@ static quadrotor_kf_status_t quadrotor_kf_hold_variances(double covariance[78])
         }
         at = at + (12U - i);
     }
+    for (uint32_t i = 0U; i < 78U; i++)
+    {
+        if ((status >= QUADROTOR_KF_OK) && !(fabs(covariance[i]) <= 1.0e9))
+        {
+            status = QUADROTOR_KF_OVERFLOW;
+        }
+    }
     return status;
+}
+
+/* Whether a covariance is within its bounds beyond doubt: a sum of magnitudes below a bound bounds each of them,
+ * and is not below it where one is NaN. */
+static bool quadrotor_kf_is_bounded(const double covariance[78])
+{
+    double sum_0 = 0.0;
+    double sum_1 = 0.0;
+    double sum_2 = 0.0;
+    double sum_3 = 0.0;
+    double sum_4 = 0.0;
+    double sum_5 = 0.0;
+
+    for (uint32_t i = 0U; i < 78U; i = i + 6U)
+    {
+        sum_0 = sum_0 + fabs(covariance[i]);
+        sum_1 = sum_1 + fabs(covariance[i + 1U]);
+        sum_2 = sum_2 + fabs(covariance[i + 2U]);
+        sum_3 = sum_3 + fabs(covariance[i + 3U]);
+        sum_4 = sum_4 + fabs(covariance[i + 4U]);
+        sum_5 = sum_5 + fabs(covariance[i + 5U]);
+    }
+    return ((((sum_0 + sum_1) + (sum_2 + sum_3)) + ((sum_4 + sum_5))) <= 1.0e9)
+           && (covariance[0] >= 1.0e-20)
+           && (covariance[12] >= 1.0e-20)
+           && (covariance[23] >= 1.0e-20)
+           && (covariance[33] >= 1.0e-20)
+           && (covariance[42] >= 1.0e-20)
+           && (covariance[50] >= 1.0e-20)
+           && (covariance[57] >= 1.0e-20)
+           && (covariance[63] >= 1.0e-20)
+           && (covariance[68] >= 1.0e-20)
+           && (covariance[72] >= 1.0e-20)
+           && (covariance[75] >= 1.0e-20)
+           && (covariance[77] >= 1.0e-20);
+}
+
+/* Between the steps of one update: the correction d, what the rows give, and the rows of P just measured. */
+typedef struct
+{
+    double delta[12];
+    double loss_a[10];
+    double loss_b[10];
+    double cross_b[10];
+    double row_a[10];
+    double row_b[10];
+    double row_variance[12];
+    double nis;
+} quadrotor_kf_rows_t;
+
+/* Rows a and b measure the first two states: d = d + K e, in the order that has these two last. loss is -K,
+ * cross is P H'; b is after a. The measured rows of P become r K. */
+static void quadrotor_kf_gain(const double p[78], double q[78], quadrotor_kf_rows_t *work,
+                              const double residual[2], const double r[2], double variance[2])
+{
+    const double a_0 = p[0];
+    const double a_1 = p[1];
+    const double a_2 = p[2];
+    const double a_3 = p[3];
+    const double a_4 = p[4];
+    const double a_5 = p[5];
+    const double a_6 = p[6];
+    const double a_7 = p[7];
+    const double a_8 = p[8];
+    const double a_9 = p[9];
+    const double a_10 = p[10];
+    const double a_11 = p[11];
+    const double p_1 = p[12];
+    const double p_2 = p[13];
+    const double p_3 = p[14];
+    const double p_4 = p[15];
+    const double p_5 = p[16];
+    const double p_6 = p[17];
+    const double p_7 = p[18];
+    const double p_8 = p[19];
+    const double p_9 = p[20];
+    const double p_10 = p[21];
+    const double p_11 = p[22];
+    const double s_a = r[0] + a_0;
+    const double minus_per_a = -1.0 / ((s_a >= 1.0e-20) ? s_a : 1.0);
+    const double minus_r_a = -r[0];
+    const double minus_r_b = -r[1];
+    const double n_0 = a_0 * minus_per_a;
+    const double n_1 = a_1 * minus_per_a;
+    const double n_2 = a_2 * minus_per_a;
+    const double n_3 = a_3 * minus_per_a;
+    const double n_4 = a_4 * minus_per_a;
+    const double n_5 = a_5 * minus_per_a;
+    const double n_6 = a_6 * minus_per_a;
+    const double n_7 = a_7 * minus_per_a;
+    const double n_8 = a_8 * minus_per_a;
+    const double n_9 = a_9 * minus_per_a;
+    const double n_10 = a_10 * minus_per_a;
+    const double n_11 = a_11 * minus_per_a;
+    const double b_0 = n_1 * minus_r_a;
+    const double b_1 = p_1 + (a_1 * n_1);
+    const double b_2 = p_2 + (a_2 * n_1);
+    const double b_3 = p_3 + (a_3 * n_1);
+    const double b_4 = p_4 + (a_4 * n_1);
+    const double b_5 = p_5 + (a_5 * n_1);
+    const double b_6 = p_6 + (a_6 * n_1);
+    const double b_7 = p_7 + (a_7 * n_1);
+    const double b_8 = p_8 + (a_8 * n_1);
+    const double b_9 = p_9 + (a_9 * n_1);
+    const double b_10 = p_10 + (a_10 * n_1);
+    const double b_11 = p_11 + (a_11 * n_1);
+    const double s_b = r[1] + b_1;
+    const double minus_per_b = -1.0 / ((s_b >= 1.0e-20) ? s_b : 1.0);
+    const double k_0 = b_0 * minus_per_b;
+    const double k_1 = b_1 * minus_per_b;
+    const double k_2 = b_2 * minus_per_b;
+    const double k_3 = b_3 * minus_per_b;
+    const double k_4 = b_4 * minus_per_b;
+    const double k_5 = b_5 * minus_per_b;
+    const double k_6 = b_6 * minus_per_b;
+    const double k_7 = b_7 * minus_per_b;
+    const double k_8 = b_8 * minus_per_b;
+    const double k_9 = b_9 * minus_per_b;
+    const double k_10 = b_10 * minus_per_b;
+    const double k_11 = b_11 * minus_per_b;
+
+    work->loss_a[0] = n_2;
+    work->loss_a[1] = n_3;
+    work->loss_a[2] = n_4;
+    work->loss_a[3] = n_5;
+    work->loss_a[4] = n_6;
+    work->loss_a[5] = n_7;
+    work->loss_a[6] = n_8;
+    work->loss_a[7] = n_9;
+    work->loss_a[8] = n_10;
+    work->loss_a[9] = n_11;
+    work->cross_b[0] = b_2;
+    work->cross_b[1] = b_3;
+    work->cross_b[2] = b_4;
+    work->cross_b[3] = b_5;
+    work->cross_b[4] = b_6;
+    work->cross_b[5] = b_7;
+    work->cross_b[6] = b_8;
+    work->cross_b[7] = b_9;
+    work->cross_b[8] = b_10;
+    work->cross_b[9] = b_11;
+    work->loss_b[0] = k_2;
+    work->loss_b[1] = k_3;
+    work->loss_b[2] = k_4;
+    work->loss_b[3] = k_5;
+    work->loss_b[4] = k_6;
+    work->loss_b[5] = k_7;
+    work->loss_b[6] = k_8;
+    work->loss_b[7] = k_9;
+    work->loss_b[8] = k_10;
+    work->loss_b[9] = k_11;
+    work->row_b[0] = k_2 * minus_r_b;
+    work->row_b[1] = k_3 * minus_r_b;
+    work->row_b[2] = k_4 * minus_r_b;
+    work->row_b[3] = k_5 * minus_r_b;
+    work->row_b[4] = k_6 * minus_r_b;
+    work->row_b[5] = k_7 * minus_r_b;
+    work->row_b[6] = k_8 * minus_r_b;
+    work->row_b[7] = k_9 * minus_r_b;
+    work->row_b[8] = k_10 * minus_r_b;
+    work->row_b[9] = k_11 * minus_r_b;
+    work->row_a[0] = (n_2 * minus_r_a) + (b_2 * k_0);
+    work->row_a[1] = (n_3 * minus_r_a) + (b_3 * k_0);
+    work->row_a[2] = (n_4 * minus_r_a) + (b_4 * k_0);
+    work->row_a[3] = (n_5 * minus_r_a) + (b_5 * k_0);
+    work->row_a[4] = (n_6 * minus_r_a) + (b_6 * k_0);
+    work->row_a[5] = (n_7 * minus_r_a) + (b_7 * k_0);
+    work->row_a[6] = (n_8 * minus_r_a) + (b_8 * k_0);
+    work->row_a[7] = (n_9 * minus_r_a) + (b_9 * k_0);
+    work->row_a[8] = (n_10 * minus_r_a) + (b_10 * k_0);
+    work->row_a[9] = (n_11 * minus_r_a) + (b_11 * k_0);
+    q[75] = (n_0 * minus_r_a) + (b_0 * k_0);
+    q[76] = k_0 * minus_r_b;
+    q[77] = k_1 * minus_r_b;
+    variance[0] = s_a;
+    variance[1] = s_b;
+
+    const double d_0 = work->delta[0];
+    const double d_1 = work->delta[1];
+    const double minus_e_a = d_0 - residual[0];
+    const double minus_e_b = (d_1 + (n_1 * minus_e_a)) - residual[1];
+    work->delta[0] = (work->delta[2] + (n_2 * minus_e_a)) + (k_2 * minus_e_b);
+    work->delta[1] = (work->delta[3] + (n_3 * minus_e_a)) + (k_3 * minus_e_b);
+    work->delta[2] = (work->delta[4] + (n_4 * minus_e_a)) + (k_4 * minus_e_b);
+    work->delta[3] = (work->delta[5] + (n_5 * minus_e_a)) + (k_5 * minus_e_b);
+    work->delta[4] = (work->delta[6] + (n_6 * minus_e_a)) + (k_6 * minus_e_b);
+    work->delta[5] = (work->delta[7] + (n_7 * minus_e_a)) + (k_7 * minus_e_b);
+    work->delta[6] = (work->delta[8] + (n_8 * minus_e_a)) + (k_8 * minus_e_b);
+    work->delta[7] = (work->delta[9] + (n_9 * minus_e_a)) + (k_9 * minus_e_b);
+    work->delta[8] = (work->delta[10] + (n_10 * minus_e_a)) + (k_10 * minus_e_b);
+    work->delta[9] = (work->delta[11] + (n_11 * minus_e_a)) + (k_11 * minus_e_b);
+    work->delta[10] = (d_0 + (n_0 * minus_e_a)) + (k_0 * minus_e_b);
+    work->delta[11] = (d_1 + (n_1 * minus_e_a)) + (k_1 * minus_e_b);
+    const double nis = work->nis - (minus_e_a * (minus_per_a * minus_e_a));
+    work->nis = nis - (minus_e_b * (minus_per_b * minus_e_b));
+}
+
+/* The rows just measured become the last two columns. */
+static void quadrotor_kf_place(double q[78], const quadrotor_kf_rows_t *work)
+{
+    q[10] = work->row_a[0];
+    q[11] = work->row_b[0];
+    q[21] = work->row_a[1];
+    q[22] = work->row_b[1];
+    q[31] = work->row_a[2];
+    q[32] = work->row_b[2];
+    q[40] = work->row_a[3];
+    q[41] = work->row_b[3];
+    q[48] = work->row_a[4];
+    q[49] = work->row_b[4];
+    q[55] = work->row_a[5];
+    q[56] = work->row_b[5];
+    q[61] = work->row_a[6];
+    q[62] = work->row_b[6];
+    q[66] = work->row_a[7];
+    q[67] = work->row_b[7];
+    q[70] = work->row_a[8];
+    q[71] = work->row_b[8];
+    q[73] = work->row_a[9];
+    q[74] = work->row_b[9];
+}
+
+/* P = P - K s K' for what was not measured, two rows at once. */
+static void quadrotor_kf_downdate(const double p[78], double q[78], const quadrotor_kf_rows_t *work)
+{
+    const double a_2 = p[2];
+    const double b_2 = work->cross_b[0];
+    const double a_3 = p[3];
+    const double b_3 = work->cross_b[1];
+    const double a_4 = p[4];
+    const double b_4 = work->cross_b[2];
+    const double a_5 = p[5];
+    const double b_5 = work->cross_b[3];
+    const double a_6 = p[6];
+    const double b_6 = work->cross_b[4];
+    const double a_7 = p[7];
+    const double b_7 = work->cross_b[5];
+    const double a_8 = p[8];
+    const double b_8 = work->cross_b[6];
+    const double a_9 = p[9];
+    const double b_9 = work->cross_b[7];
+    const double a_10 = p[10];
+    const double b_10 = work->cross_b[8];
+    const double a_11 = p[11];
+    const double b_11 = work->cross_b[9];
+
+    const double n_2 = work->loss_a[0];
+    const double k_2 = work->loss_b[0];
+    const double p_2_2 = p[23];
+    const double p_2_3 = p[24];
+    const double p_2_4 = p[25];
+    const double p_2_5 = p[26];
+    const double p_2_6 = p[27];
+    const double p_2_7 = p[28];
+    const double p_2_8 = p[29];
+    const double p_2_9 = p[30];
+    const double p_2_10 = p[31];
+    const double p_2_11 = p[32];
+    q[0] = (p_2_2 + (a_2 * n_2)) + (b_2 * k_2);
+    q[1] = (p_2_3 + (a_3 * n_2)) + (b_3 * k_2);
+    q[2] = (p_2_4 + (a_4 * n_2)) + (b_4 * k_2);
+    q[3] = (p_2_5 + (a_5 * n_2)) + (b_5 * k_2);
+    q[4] = (p_2_6 + (a_6 * n_2)) + (b_6 * k_2);
+    q[5] = (p_2_7 + (a_7 * n_2)) + (b_7 * k_2);
+    q[6] = (p_2_8 + (a_8 * n_2)) + (b_8 * k_2);
+    q[7] = (p_2_9 + (a_9 * n_2)) + (b_9 * k_2);
+    q[8] = (p_2_10 + (a_10 * n_2)) + (b_10 * k_2);
+    q[9] = (p_2_11 + (a_11 * n_2)) + (b_11 * k_2);
+
+    const double n_3 = work->loss_a[1];
+    const double k_3 = work->loss_b[1];
+    const double p_3_3 = p[33];
+    const double p_3_4 = p[34];
+    const double p_3_5 = p[35];
+    const double p_3_6 = p[36];
+    const double p_3_7 = p[37];
+    const double p_3_8 = p[38];
+    const double p_3_9 = p[39];
+    const double p_3_10 = p[40];
+    const double p_3_11 = p[41];
+    q[12] = (p_3_3 + (a_3 * n_3)) + (b_3 * k_3);
+    q[13] = (p_3_4 + (a_4 * n_3)) + (b_4 * k_3);
+    q[14] = (p_3_5 + (a_5 * n_3)) + (b_5 * k_3);
+    q[15] = (p_3_6 + (a_6 * n_3)) + (b_6 * k_3);
+    q[16] = (p_3_7 + (a_7 * n_3)) + (b_7 * k_3);
+    q[17] = (p_3_8 + (a_8 * n_3)) + (b_8 * k_3);
+    q[18] = (p_3_9 + (a_9 * n_3)) + (b_9 * k_3);
+    q[19] = (p_3_10 + (a_10 * n_3)) + (b_10 * k_3);
+    q[20] = (p_3_11 + (a_11 * n_3)) + (b_11 * k_3);
+
+    const double n_4 = work->loss_a[2];
+    const double k_4 = work->loss_b[2];
+    const double p_4_4 = p[42];
+    const double p_4_5 = p[43];
+    const double p_4_6 = p[44];
+    const double p_4_7 = p[45];
+    const double p_4_8 = p[46];
+    const double p_4_9 = p[47];
+    const double p_4_10 = p[48];
+    const double p_4_11 = p[49];
+    q[23] = (p_4_4 + (a_4 * n_4)) + (b_4 * k_4);
+    q[24] = (p_4_5 + (a_5 * n_4)) + (b_5 * k_4);
+    q[25] = (p_4_6 + (a_6 * n_4)) + (b_6 * k_4);
+    q[26] = (p_4_7 + (a_7 * n_4)) + (b_7 * k_4);
+    q[27] = (p_4_8 + (a_8 * n_4)) + (b_8 * k_4);
+    q[28] = (p_4_9 + (a_9 * n_4)) + (b_9 * k_4);
+    q[29] = (p_4_10 + (a_10 * n_4)) + (b_10 * k_4);
+    q[30] = (p_4_11 + (a_11 * n_4)) + (b_11 * k_4);
+
+    const double n_5 = work->loss_a[3];
+    const double k_5 = work->loss_b[3];
+    const double p_5_5 = p[50];
+    const double p_5_6 = p[51];
+    const double p_5_7 = p[52];
+    const double p_5_8 = p[53];
+    const double p_5_9 = p[54];
+    const double p_5_10 = p[55];
+    const double p_5_11 = p[56];
+    q[33] = (p_5_5 + (a_5 * n_5)) + (b_5 * k_5);
+    q[34] = (p_5_6 + (a_6 * n_5)) + (b_6 * k_5);
+    q[35] = (p_5_7 + (a_7 * n_5)) + (b_7 * k_5);
+    q[36] = (p_5_8 + (a_8 * n_5)) + (b_8 * k_5);
+    q[37] = (p_5_9 + (a_9 * n_5)) + (b_9 * k_5);
+    q[38] = (p_5_10 + (a_10 * n_5)) + (b_10 * k_5);
+    q[39] = (p_5_11 + (a_11 * n_5)) + (b_11 * k_5);
+
+    const double n_6 = work->loss_a[4];
+    const double k_6 = work->loss_b[4];
+    const double p_6_6 = p[57];
+    const double p_6_7 = p[58];
+    const double p_6_8 = p[59];
+    const double p_6_9 = p[60];
+    const double p_6_10 = p[61];
+    const double p_6_11 = p[62];
+    q[42] = (p_6_6 + (a_6 * n_6)) + (b_6 * k_6);
+    q[43] = (p_6_7 + (a_7 * n_6)) + (b_7 * k_6);
+    q[44] = (p_6_8 + (a_8 * n_6)) + (b_8 * k_6);
+    q[45] = (p_6_9 + (a_9 * n_6)) + (b_9 * k_6);
+    q[46] = (p_6_10 + (a_10 * n_6)) + (b_10 * k_6);
+    q[47] = (p_6_11 + (a_11 * n_6)) + (b_11 * k_6);
+
+    const double n_7 = work->loss_a[5];
+    const double k_7 = work->loss_b[5];
+    const double p_7_7 = p[63];
+    const double p_7_8 = p[64];
+    const double p_7_9 = p[65];
+    const double p_7_10 = p[66];
+    const double p_7_11 = p[67];
+    q[50] = (p_7_7 + (a_7 * n_7)) + (b_7 * k_7);
+    q[51] = (p_7_8 + (a_8 * n_7)) + (b_8 * k_7);
+    q[52] = (p_7_9 + (a_9 * n_7)) + (b_9 * k_7);
+    q[53] = (p_7_10 + (a_10 * n_7)) + (b_10 * k_7);
+    q[54] = (p_7_11 + (a_11 * n_7)) + (b_11 * k_7);
+
+    const double n_8 = work->loss_a[6];
+    const double k_8 = work->loss_b[6];
+    const double p_8_8 = p[68];
+    const double p_8_9 = p[69];
+    const double p_8_10 = p[70];
+    const double p_8_11 = p[71];
+    q[57] = (p_8_8 + (a_8 * n_8)) + (b_8 * k_8);
+    q[58] = (p_8_9 + (a_9 * n_8)) + (b_9 * k_8);
+    q[59] = (p_8_10 + (a_10 * n_8)) + (b_10 * k_8);
+    q[60] = (p_8_11 + (a_11 * n_8)) + (b_11 * k_8);
+
+    const double n_9 = work->loss_a[7];
+    const double k_9 = work->loss_b[7];
+    const double p_9_9 = p[72];
+    const double p_9_10 = p[73];
+    const double p_9_11 = p[74];
+    q[63] = (p_9_9 + (a_9 * n_9)) + (b_9 * k_9);
+    q[64] = (p_9_10 + (a_10 * n_9)) + (b_10 * k_9);
+    q[65] = (p_9_11 + (a_11 * n_9)) + (b_11 * k_9);
+
+    const double n_10 = work->loss_a[8];
+    const double k_10 = work->loss_b[8];
+    const double p_10_10 = p[75];
+    const double p_10_11 = p[76];
+    q[68] = (p_10_10 + (a_10 * n_10)) + (b_10 * k_10);
+    q[69] = (p_10_11 + (a_11 * n_10)) + (b_11 * k_10);
+
+    const double n_11 = work->loss_a[9];
+    const double k_11 = work->loss_b[9];
+    const double p_11_11 = p[77];
+    q[72] = (p_11_11 + (a_11 * n_11)) + (b_11 * k_11);
 }
 
 static quadrotor_kf_status_t quadrotor_kf_init_core(quadrotor_kf_state_t *after, const quadrotor_kf_params_t *params)
@@ -146,18 +538,7 @@ static quadrotor_kf_status_t quadrotor_kf_init_core(quadrotor_kf_state_t *after,
         after->rejected_pose = 0U;
 
         /* judge, then commit */
-        if (!((after->covariance[0] >= 1.0e-20) && (after->covariance[0] <= 1.0e9) && (after->covariance[12] >= 1.0e-20)
-              && (after->covariance[12] <= 1.0e9) && (after->covariance[23] >= 1.0e-20)
-              && (after->covariance[23] <= 1.0e9) && (after->covariance[33] >= 1.0e-20)
-              && (after->covariance[33] <= 1.0e9) && (after->covariance[42] >= 1.0e-20)
-              && (after->covariance[42] <= 1.0e9) && (after->covariance[50] >= 1.0e-20)
-              && (after->covariance[50] <= 1.0e9) && (after->covariance[57] >= 1.0e-20)
-              && (after->covariance[57] <= 1.0e9) && (after->covariance[63] >= 1.0e-20)
-              && (after->covariance[63] <= 1.0e9) && (after->covariance[68] >= 1.0e-20)
-              && (after->covariance[68] <= 1.0e9) && (after->covariance[72] >= 1.0e-20)
-              && (after->covariance[72] <= 1.0e9) && (after->covariance[75] >= 1.0e-20)
-              && (after->covariance[75] <= 1.0e9) && (after->covariance[77] >= 1.0e-20)
-              && (after->covariance[77] <= 1.0e9)))
+        if (!quadrotor_kf_is_bounded(after->covariance))
         {
             status = quadrotor_kf_hold_variances(after->covariance);
         }
@@ -416,18 +797,7 @@ static quadrotor_kf_status_t quadrotor_kf_predict_core(const quadrotor_kf_state_
         }
 
         /* judge, then commit */
-        if (!((after->covariance[0] >= 1.0e-20) && (after->covariance[0] <= 1.0e9) && (after->covariance[12] >= 1.0e-20)
-              && (after->covariance[12] <= 1.0e9) && (after->covariance[23] >= 1.0e-20)
-              && (after->covariance[23] <= 1.0e9) && (after->covariance[33] >= 1.0e-20)
-              && (after->covariance[33] <= 1.0e9) && (after->covariance[42] >= 1.0e-20)
-              && (after->covariance[42] <= 1.0e9) && (after->covariance[50] >= 1.0e-20)
-              && (after->covariance[50] <= 1.0e9) && (after->covariance[57] >= 1.0e-20)
-              && (after->covariance[57] <= 1.0e9) && (after->covariance[63] >= 1.0e-20)
-              && (after->covariance[63] <= 1.0e9) && (after->covariance[68] >= 1.0e-20)
-              && (after->covariance[68] <= 1.0e9) && (after->covariance[72] >= 1.0e-20)
-              && (after->covariance[72] <= 1.0e9) && (after->covariance[75] >= 1.0e-20)
-              && (after->covariance[75] <= 1.0e9) && (after->covariance[77] >= 1.0e-20)
-              && (after->covariance[77] <= 1.0e9)))
+        if (!quadrotor_kf_is_bounded(after->covariance))
         {
             status = quadrotor_kf_hold_variances(after->covariance);
         }
@@ -437,40 +807,7 @@ static quadrotor_kf_status_t quadrotor_kf_predict_core(const quadrotor_kf_state_
                   && (fabs(after->vy) <= 1000.0) && (fabs(after->z) <= 10000.0) && (fabs(after->vz) <= 1000.0)
                   && (fabs(after->roll) <= 30.0) && (fabs(after->roll_rate) <= 100.0) && (fabs(after->pitch) <= 30.0)
                   && (fabs(after->pitch_rate) <= 100.0) && (fabs(after->yaw) <= 30.0)
-                  && (fabs(after->yaw_rate) <= 100.0) && (fabs(after->covariance[1]) <= 1.0e9)
-                  && (fabs(after->covariance[2]) <= 1.0e9) && (fabs(after->covariance[3]) <= 1.0e9)
-                  && (fabs(after->covariance[4]) <= 1.0e9) && (fabs(after->covariance[5]) <= 1.0e9)
-                  && (fabs(after->covariance[6]) <= 1.0e9) && (fabs(after->covariance[7]) <= 1.0e9)
-                  && (fabs(after->covariance[8]) <= 1.0e9) && (fabs(after->covariance[9]) <= 1.0e9)
-                  && (fabs(after->covariance[10]) <= 1.0e9) && (fabs(after->covariance[11]) <= 1.0e9)
-                  && (fabs(after->covariance[13]) <= 1.0e9) && (fabs(after->covariance[14]) <= 1.0e9)
-                  && (fabs(after->covariance[15]) <= 1.0e9) && (fabs(after->covariance[16]) <= 1.0e9)
-                  && (fabs(after->covariance[17]) <= 1.0e9) && (fabs(after->covariance[18]) <= 1.0e9)
-                  && (fabs(after->covariance[19]) <= 1.0e9) && (fabs(after->covariance[20]) <= 1.0e9)
-                  && (fabs(after->covariance[21]) <= 1.0e9) && (fabs(after->covariance[22]) <= 1.0e9)
-                  && (fabs(after->covariance[24]) <= 1.0e9) && (fabs(after->covariance[25]) <= 1.0e9)
-                  && (fabs(after->covariance[26]) <= 1.0e9) && (fabs(after->covariance[27]) <= 1.0e9)
-                  && (fabs(after->covariance[28]) <= 1.0e9) && (fabs(after->covariance[29]) <= 1.0e9)
-                  && (fabs(after->covariance[30]) <= 1.0e9) && (fabs(after->covariance[31]) <= 1.0e9)
-                  && (fabs(after->covariance[32]) <= 1.0e9) && (fabs(after->covariance[34]) <= 1.0e9)
-                  && (fabs(after->covariance[35]) <= 1.0e9) && (fabs(after->covariance[36]) <= 1.0e9)
-                  && (fabs(after->covariance[37]) <= 1.0e9) && (fabs(after->covariance[38]) <= 1.0e9)
-                  && (fabs(after->covariance[39]) <= 1.0e9) && (fabs(after->covariance[40]) <= 1.0e9)
-                  && (fabs(after->covariance[41]) <= 1.0e9) && (fabs(after->covariance[43]) <= 1.0e9)
-                  && (fabs(after->covariance[44]) <= 1.0e9) && (fabs(after->covariance[45]) <= 1.0e9)
-                  && (fabs(after->covariance[46]) <= 1.0e9) && (fabs(after->covariance[47]) <= 1.0e9)
-                  && (fabs(after->covariance[48]) <= 1.0e9) && (fabs(after->covariance[49]) <= 1.0e9)
-                  && (fabs(after->covariance[51]) <= 1.0e9) && (fabs(after->covariance[52]) <= 1.0e9)
-                  && (fabs(after->covariance[53]) <= 1.0e9) && (fabs(after->covariance[54]) <= 1.0e9)
-                  && (fabs(after->covariance[55]) <= 1.0e9) && (fabs(after->covariance[56]) <= 1.0e9)
-                  && (fabs(after->covariance[58]) <= 1.0e9) && (fabs(after->covariance[59]) <= 1.0e9)
-                  && (fabs(after->covariance[60]) <= 1.0e9) && (fabs(after->covariance[61]) <= 1.0e9)
-                  && (fabs(after->covariance[62]) <= 1.0e9) && (fabs(after->covariance[64]) <= 1.0e9)
-                  && (fabs(after->covariance[65]) <= 1.0e9) && (fabs(after->covariance[66]) <= 1.0e9)
-                  && (fabs(after->covariance[67]) <= 1.0e9) && (fabs(after->covariance[69]) <= 1.0e9)
-                  && (fabs(after->covariance[70]) <= 1.0e9) && (fabs(after->covariance[71]) <= 1.0e9)
-                  && (fabs(after->covariance[73]) <= 1.0e9) && (fabs(after->covariance[74]) <= 1.0e9)
-                  && (fabs(after->covariance[76]) <= 1.0e9)))
+                  && (fabs(after->yaw_rate) <= 100.0)))
             {
                 status = QUADROTOR_KF_OVERFLOW;
             }
@@ -479,15 +816,14 @@ static quadrotor_kf_status_t quadrotor_kf_predict_core(const quadrotor_kf_state_
     return status;
 }
 
-/* 994 additions, 1248 multiplications, 12 divisions, 36 negations, 12 selections. */
+/* 1014 additions, 1254 multiplications, 12 divisions, 24 negations, 12 selections. */
 static quadrotor_kf_status_t quadrotor_kf_update_pose_core(const quadrotor_kf_state_t *before,
                                                            quadrotor_kf_state_t *after,
                                                            const quadrotor_kf_params_t *params, const double pose[12],
                                                            const double gate, quadrotor_kf_update_pose_out_t *out)
 {
-    double delta[12];
-    double nis[1];
-    double row_variance[12];
+    quadrotor_kf_rows_t work;
+    double spare_covariance[78];
     quadrotor_kf_status_t status = QUADROTOR_KF_OK;
 
     if (!((fabs(pose[0]) <= 1000000.0) && (fabs(pose[1]) <= 1000000.0) && (fabs(pose[2]) <= 1000000.0)
@@ -552,1582 +888,76 @@ static quadrotor_kf_status_t quadrotor_kf_update_pose_core(const quadrotor_kf_st
         out->innovation[10] = residual_10;
         out->innovation[11] = residual_11;
 
-        /* row 0: d = d + K e, P = P - K s K'; the measured row as r K */
+        /* d = d + K e, P = P - K s K', two rows at a time; measured rows as r K */
+        for (uint32_t i = 0U; i < 12U; i++)
         {
-            const double p_0_0 = before->covariance[0];
-            const double r_0 = params->variance_pose[0];
-            const double s = r_0 + p_0_0;
-            const double per_s = 1.0 / ((s >= 1.0e-20) ? s : 1.0);
-            const double minus_per_s = -per_s;
-            const double n_0 = p_0_0 * minus_per_s;
-            const double minus_r = -r_0;
-            after->covariance[0] = n_0 * minus_r;
-            const double p_0_1 = before->covariance[1];
-            const double n_1 = p_0_1 * minus_per_s;
-            after->covariance[1] = n_1 * minus_r;
-            const double p_0_2 = before->covariance[2];
-            const double n_2 = p_0_2 * minus_per_s;
-            after->covariance[2] = n_2 * minus_r;
-            const double p_0_3 = before->covariance[3];
-            const double n_3 = p_0_3 * minus_per_s;
-            after->covariance[3] = n_3 * minus_r;
-            const double p_0_4 = before->covariance[4];
-            const double n_4 = p_0_4 * minus_per_s;
-            after->covariance[4] = n_4 * minus_r;
-            const double p_0_5 = before->covariance[5];
-            const double n_5 = p_0_5 * minus_per_s;
-            after->covariance[5] = n_5 * minus_r;
-            const double p_0_6 = before->covariance[6];
-            const double n_6 = p_0_6 * minus_per_s;
-            after->covariance[6] = n_6 * minus_r;
-            const double p_0_7 = before->covariance[7];
-            const double n_7 = p_0_7 * minus_per_s;
-            after->covariance[7] = n_7 * minus_r;
-            const double p_0_8 = before->covariance[8];
-            const double n_8 = p_0_8 * minus_per_s;
-            after->covariance[8] = n_8 * minus_r;
-            const double p_0_9 = before->covariance[9];
-            const double n_9 = p_0_9 * minus_per_s;
-            after->covariance[9] = n_9 * minus_r;
-            const double p_0_10 = before->covariance[10];
-            const double n_10 = p_0_10 * minus_per_s;
-            after->covariance[10] = n_10 * minus_r;
-            const double p_0_11 = before->covariance[11];
-            const double n_11 = p_0_11 * minus_per_s;
-            after->covariance[11] = n_11 * minus_r;
-            after->covariance[12] = before->covariance[12] + (p_0_1 * n_1);
-            after->covariance[13] = before->covariance[13] + (p_0_2 * n_1);
-            after->covariance[14] = before->covariance[14] + (p_0_3 * n_1);
-            after->covariance[15] = before->covariance[15] + (p_0_4 * n_1);
-            after->covariance[16] = before->covariance[16] + (p_0_5 * n_1);
-            after->covariance[17] = before->covariance[17] + (p_0_6 * n_1);
-            after->covariance[18] = before->covariance[18] + (p_0_7 * n_1);
-            after->covariance[19] = before->covariance[19] + (p_0_8 * n_1);
-            after->covariance[20] = before->covariance[20] + (p_0_9 * n_1);
-            after->covariance[21] = before->covariance[21] + (p_0_10 * n_1);
-            after->covariance[22] = before->covariance[22] + (p_0_11 * n_1);
-            after->covariance[23] = before->covariance[23] + (p_0_2 * n_2);
-            after->covariance[24] = before->covariance[24] + (p_0_3 * n_2);
-            after->covariance[25] = before->covariance[25] + (p_0_4 * n_2);
-            after->covariance[26] = before->covariance[26] + (p_0_5 * n_2);
-            after->covariance[27] = before->covariance[27] + (p_0_6 * n_2);
-            after->covariance[28] = before->covariance[28] + (p_0_7 * n_2);
-            after->covariance[29] = before->covariance[29] + (p_0_8 * n_2);
-            after->covariance[30] = before->covariance[30] + (p_0_9 * n_2);
-            after->covariance[31] = before->covariance[31] + (p_0_10 * n_2);
-            after->covariance[32] = before->covariance[32] + (p_0_11 * n_2);
-            after->covariance[33] = before->covariance[33] + (p_0_3 * n_3);
-            after->covariance[34] = before->covariance[34] + (p_0_4 * n_3);
-            after->covariance[35] = before->covariance[35] + (p_0_5 * n_3);
-            after->covariance[36] = before->covariance[36] + (p_0_6 * n_3);
-            after->covariance[37] = before->covariance[37] + (p_0_7 * n_3);
-            after->covariance[38] = before->covariance[38] + (p_0_8 * n_3);
-            after->covariance[39] = before->covariance[39] + (p_0_9 * n_3);
-            after->covariance[40] = before->covariance[40] + (p_0_10 * n_3);
-            after->covariance[41] = before->covariance[41] + (p_0_11 * n_3);
-            after->covariance[42] = before->covariance[42] + (p_0_4 * n_4);
-            after->covariance[43] = before->covariance[43] + (p_0_5 * n_4);
-            after->covariance[44] = before->covariance[44] + (p_0_6 * n_4);
-            after->covariance[45] = before->covariance[45] + (p_0_7 * n_4);
-            after->covariance[46] = before->covariance[46] + (p_0_8 * n_4);
-            after->covariance[47] = before->covariance[47] + (p_0_9 * n_4);
-            after->covariance[48] = before->covariance[48] + (p_0_10 * n_4);
-            after->covariance[49] = before->covariance[49] + (p_0_11 * n_4);
-            after->covariance[50] = before->covariance[50] + (p_0_5 * n_5);
-            after->covariance[51] = before->covariance[51] + (p_0_6 * n_5);
-            after->covariance[52] = before->covariance[52] + (p_0_7 * n_5);
-            after->covariance[53] = before->covariance[53] + (p_0_8 * n_5);
-            after->covariance[54] = before->covariance[54] + (p_0_9 * n_5);
-            after->covariance[55] = before->covariance[55] + (p_0_10 * n_5);
-            after->covariance[56] = before->covariance[56] + (p_0_11 * n_5);
-            after->covariance[57] = before->covariance[57] + (p_0_6 * n_6);
-            after->covariance[58] = before->covariance[58] + (p_0_7 * n_6);
-            after->covariance[59] = before->covariance[59] + (p_0_8 * n_6);
-            after->covariance[60] = before->covariance[60] + (p_0_9 * n_6);
-            after->covariance[61] = before->covariance[61] + (p_0_10 * n_6);
-            after->covariance[62] = before->covariance[62] + (p_0_11 * n_6);
-            after->covariance[63] = before->covariance[63] + (p_0_7 * n_7);
-            after->covariance[64] = before->covariance[64] + (p_0_8 * n_7);
-            after->covariance[65] = before->covariance[65] + (p_0_9 * n_7);
-            after->covariance[66] = before->covariance[66] + (p_0_10 * n_7);
-            after->covariance[67] = before->covariance[67] + (p_0_11 * n_7);
-            after->covariance[68] = before->covariance[68] + (p_0_8 * n_8);
-            after->covariance[69] = before->covariance[69] + (p_0_9 * n_8);
-            after->covariance[70] = before->covariance[70] + (p_0_10 * n_8);
-            after->covariance[71] = before->covariance[71] + (p_0_11 * n_8);
-            after->covariance[72] = before->covariance[72] + (p_0_9 * n_9);
-            after->covariance[73] = before->covariance[73] + (p_0_10 * n_9);
-            after->covariance[74] = before->covariance[74] + (p_0_11 * n_9);
-            after->covariance[75] = before->covariance[75] + (p_0_10 * n_10);
-            after->covariance[76] = before->covariance[76] + (p_0_11 * n_10);
-            after->covariance[77] = before->covariance[77] + (p_0_11 * n_11);
-            const double minus_e = -residual_0;
-            delta[0] = n_0 * minus_e;
-            delta[1] = n_1 * minus_e;
-            delta[2] = n_2 * minus_e;
-            delta[3] = n_3 * minus_e;
-            delta[4] = n_4 * minus_e;
-            delta[5] = n_5 * minus_e;
-            delta[6] = n_6 * minus_e;
-            delta[7] = n_7 * minus_e;
-            delta[8] = n_8 * minus_e;
-            delta[9] = n_9 * minus_e;
-            delta[10] = n_10 * minus_e;
-            delta[11] = n_11 * minus_e;
-            nis[0] = residual_0 * (residual_0 * per_s);
-            row_variance[0] = s;
+        work.delta[i] = 0.0;
         }
+        work.nis = 0.0;
+        /* rows 0 and 1 */
+        quadrotor_kf_gain(before->covariance, spare_covariance, &work, &out->innovation[0], &params->variance_pose[0],
+            &work.row_variance[0]);
+        quadrotor_kf_place(spare_covariance, &work);
+        quadrotor_kf_downdate(before->covariance, spare_covariance, &work);
+        /* rows 2 and 3 */
+        quadrotor_kf_gain(spare_covariance, after->covariance, &work, &out->innovation[2], &params->variance_pose[2],
+            &work.row_variance[2]);
+        quadrotor_kf_place(after->covariance, &work);
+        quadrotor_kf_downdate(spare_covariance, after->covariance, &work);
+        /* rows 4 and 5 */
+        quadrotor_kf_gain(after->covariance, spare_covariance, &work, &out->innovation[4], &params->variance_pose[4],
+            &work.row_variance[4]);
+        quadrotor_kf_place(spare_covariance, &work);
+        quadrotor_kf_downdate(after->covariance, spare_covariance, &work);
+        /* rows 6 and 7 */
+        quadrotor_kf_gain(spare_covariance, after->covariance, &work, &out->innovation[6], &params->variance_pose[6],
+            &work.row_variance[6]);
+        quadrotor_kf_place(after->covariance, &work);
+        quadrotor_kf_downdate(spare_covariance, after->covariance, &work);
+        /* rows 8 and 9 */
+        quadrotor_kf_gain(after->covariance, spare_covariance, &work, &out->innovation[8], &params->variance_pose[8],
+            &work.row_variance[8]);
+        quadrotor_kf_place(spare_covariance, &work);
+        quadrotor_kf_downdate(after->covariance, spare_covariance, &work);
+        /* rows 10 and 11 */
+        quadrotor_kf_gain(spare_covariance, after->covariance, &work, &out->innovation[10], &params->variance_pose[10],
+            &work.row_variance[10]);
+        quadrotor_kf_place(after->covariance, &work);
+        quadrotor_kf_downdate(spare_covariance, after->covariance, &work);
 
-        /* row 1: d = d + K e, P = P - K s K'; the measured row as r K */
-        {
-            const double p_0_1 = after->covariance[1];
-            const double r_1 = params->variance_pose[1];
-            const double p_1_1 = after->covariance[12];
-            const double s = r_1 + p_1_1;
-            const double per_s = 1.0 / ((s >= 1.0e-20) ? s : 1.0);
-            const double minus_per_s = -per_s;
-            const double n_0 = p_0_1 * minus_per_s;
-            after->covariance[0] = after->covariance[0] + (p_0_1 * n_0);
-            const double minus_r = -r_1;
-            after->covariance[1] = n_0 * minus_r;
-            const double p_1_2 = after->covariance[13];
-            after->covariance[2] = after->covariance[2] + (p_1_2 * n_0);
-            const double p_1_3 = after->covariance[14];
-            after->covariance[3] = after->covariance[3] + (p_1_3 * n_0);
-            const double p_1_4 = after->covariance[15];
-            after->covariance[4] = after->covariance[4] + (p_1_4 * n_0);
-            const double p_1_5 = after->covariance[16];
-            after->covariance[5] = after->covariance[5] + (p_1_5 * n_0);
-            const double p_1_6 = after->covariance[17];
-            after->covariance[6] = after->covariance[6] + (p_1_6 * n_0);
-            const double p_1_7 = after->covariance[18];
-            after->covariance[7] = after->covariance[7] + (p_1_7 * n_0);
-            const double p_1_8 = after->covariance[19];
-            after->covariance[8] = after->covariance[8] + (p_1_8 * n_0);
-            const double p_1_9 = after->covariance[20];
-            after->covariance[9] = after->covariance[9] + (p_1_9 * n_0);
-            const double p_1_10 = after->covariance[21];
-            after->covariance[10] = after->covariance[10] + (p_1_10 * n_0);
-            const double p_1_11 = after->covariance[22];
-            after->covariance[11] = after->covariance[11] + (p_1_11 * n_0);
-            const double n_1 = p_1_1 * minus_per_s;
-            after->covariance[12] = n_1 * minus_r;
-            const double n_2 = p_1_2 * minus_per_s;
-            after->covariance[13] = n_2 * minus_r;
-            const double n_3 = p_1_3 * minus_per_s;
-            after->covariance[14] = n_3 * minus_r;
-            const double n_4 = p_1_4 * minus_per_s;
-            after->covariance[15] = n_4 * minus_r;
-            const double n_5 = p_1_5 * minus_per_s;
-            after->covariance[16] = n_5 * minus_r;
-            const double n_6 = p_1_6 * minus_per_s;
-            after->covariance[17] = n_6 * minus_r;
-            const double n_7 = p_1_7 * minus_per_s;
-            after->covariance[18] = n_7 * minus_r;
-            const double n_8 = p_1_8 * minus_per_s;
-            after->covariance[19] = n_8 * minus_r;
-            const double n_9 = p_1_9 * minus_per_s;
-            after->covariance[20] = n_9 * minus_r;
-            const double n_10 = p_1_10 * minus_per_s;
-            after->covariance[21] = n_10 * minus_r;
-            const double n_11 = p_1_11 * minus_per_s;
-            after->covariance[22] = n_11 * minus_r;
-            after->covariance[23] = after->covariance[23] + (p_1_2 * n_2);
-            after->covariance[24] = after->covariance[24] + (p_1_3 * n_2);
-            after->covariance[25] = after->covariance[25] + (p_1_4 * n_2);
-            after->covariance[26] = after->covariance[26] + (p_1_5 * n_2);
-            after->covariance[27] = after->covariance[27] + (p_1_6 * n_2);
-            after->covariance[28] = after->covariance[28] + (p_1_7 * n_2);
-            after->covariance[29] = after->covariance[29] + (p_1_8 * n_2);
-            after->covariance[30] = after->covariance[30] + (p_1_9 * n_2);
-            after->covariance[31] = after->covariance[31] + (p_1_10 * n_2);
-            after->covariance[32] = after->covariance[32] + (p_1_11 * n_2);
-            after->covariance[33] = after->covariance[33] + (p_1_3 * n_3);
-            after->covariance[34] = after->covariance[34] + (p_1_4 * n_3);
-            after->covariance[35] = after->covariance[35] + (p_1_5 * n_3);
-            after->covariance[36] = after->covariance[36] + (p_1_6 * n_3);
-            after->covariance[37] = after->covariance[37] + (p_1_7 * n_3);
-            after->covariance[38] = after->covariance[38] + (p_1_8 * n_3);
-            after->covariance[39] = after->covariance[39] + (p_1_9 * n_3);
-            after->covariance[40] = after->covariance[40] + (p_1_10 * n_3);
-            after->covariance[41] = after->covariance[41] + (p_1_11 * n_3);
-            after->covariance[42] = after->covariance[42] + (p_1_4 * n_4);
-            after->covariance[43] = after->covariance[43] + (p_1_5 * n_4);
-            after->covariance[44] = after->covariance[44] + (p_1_6 * n_4);
-            after->covariance[45] = after->covariance[45] + (p_1_7 * n_4);
-            after->covariance[46] = after->covariance[46] + (p_1_8 * n_4);
-            after->covariance[47] = after->covariance[47] + (p_1_9 * n_4);
-            after->covariance[48] = after->covariance[48] + (p_1_10 * n_4);
-            after->covariance[49] = after->covariance[49] + (p_1_11 * n_4);
-            after->covariance[50] = after->covariance[50] + (p_1_5 * n_5);
-            after->covariance[51] = after->covariance[51] + (p_1_6 * n_5);
-            after->covariance[52] = after->covariance[52] + (p_1_7 * n_5);
-            after->covariance[53] = after->covariance[53] + (p_1_8 * n_5);
-            after->covariance[54] = after->covariance[54] + (p_1_9 * n_5);
-            after->covariance[55] = after->covariance[55] + (p_1_10 * n_5);
-            after->covariance[56] = after->covariance[56] + (p_1_11 * n_5);
-            after->covariance[57] = after->covariance[57] + (p_1_6 * n_6);
-            after->covariance[58] = after->covariance[58] + (p_1_7 * n_6);
-            after->covariance[59] = after->covariance[59] + (p_1_8 * n_6);
-            after->covariance[60] = after->covariance[60] + (p_1_9 * n_6);
-            after->covariance[61] = after->covariance[61] + (p_1_10 * n_6);
-            after->covariance[62] = after->covariance[62] + (p_1_11 * n_6);
-            after->covariance[63] = after->covariance[63] + (p_1_7 * n_7);
-            after->covariance[64] = after->covariance[64] + (p_1_8 * n_7);
-            after->covariance[65] = after->covariance[65] + (p_1_9 * n_7);
-            after->covariance[66] = after->covariance[66] + (p_1_10 * n_7);
-            after->covariance[67] = after->covariance[67] + (p_1_11 * n_7);
-            after->covariance[68] = after->covariance[68] + (p_1_8 * n_8);
-            after->covariance[69] = after->covariance[69] + (p_1_9 * n_8);
-            after->covariance[70] = after->covariance[70] + (p_1_10 * n_8);
-            after->covariance[71] = after->covariance[71] + (p_1_11 * n_8);
-            after->covariance[72] = after->covariance[72] + (p_1_9 * n_9);
-            after->covariance[73] = after->covariance[73] + (p_1_10 * n_9);
-            after->covariance[74] = after->covariance[74] + (p_1_11 * n_9);
-            after->covariance[75] = after->covariance[75] + (p_1_10 * n_10);
-            after->covariance[76] = after->covariance[76] + (p_1_11 * n_10);
-            after->covariance[77] = after->covariance[77] + (p_1_11 * n_11);
-            const double delta_1 = delta[1];
-            const double e = residual_1 - delta_1;
-            const double minus_e = -e;
-            delta[0] = delta[0] + (n_0 * minus_e);
-            delta[1] = delta_1 + (n_1 * minus_e);
-            delta[2] = delta[2] + (n_2 * minus_e);
-            delta[3] = delta[3] + (n_3 * minus_e);
-            delta[4] = delta[4] + (n_4 * minus_e);
-            delta[5] = delta[5] + (n_5 * minus_e);
-            delta[6] = delta[6] + (n_6 * minus_e);
-            delta[7] = delta[7] + (n_7 * minus_e);
-            delta[8] = delta[8] + (n_8 * minus_e);
-            delta[9] = delta[9] + (n_9 * minus_e);
-            delta[10] = delta[10] + (n_10 * minus_e);
-            delta[11] = delta[11] + (n_11 * minus_e);
-            nis[0] = nis[0] + (e * (per_s * e));
-            row_variance[1] = s;
-        }
-
-        /* row 2: d = d + K e, P = P - K s K'; the measured row as r K */
-        {
-            const double p_0_2 = after->covariance[2];
-            const double r_2 = params->variance_pose[2];
-            const double p_2_2 = after->covariance[23];
-            const double s = r_2 + p_2_2;
-            const double per_s = 1.0 / ((s >= 1.0e-20) ? s : 1.0);
-            const double minus_per_s = -per_s;
-            const double n_0 = p_0_2 * minus_per_s;
-            after->covariance[0] = after->covariance[0] + (p_0_2 * n_0);
-            const double p_1_2 = after->covariance[13];
-            after->covariance[1] = after->covariance[1] + (p_1_2 * n_0);
-            const double minus_r = -r_2;
-            after->covariance[2] = n_0 * minus_r;
-            const double p_2_3 = after->covariance[24];
-            after->covariance[3] = after->covariance[3] + (p_2_3 * n_0);
-            const double p_2_4 = after->covariance[25];
-            after->covariance[4] = after->covariance[4] + (p_2_4 * n_0);
-            const double p_2_5 = after->covariance[26];
-            after->covariance[5] = after->covariance[5] + (p_2_5 * n_0);
-            const double p_2_6 = after->covariance[27];
-            after->covariance[6] = after->covariance[6] + (p_2_6 * n_0);
-            const double p_2_7 = after->covariance[28];
-            after->covariance[7] = after->covariance[7] + (p_2_7 * n_0);
-            const double p_2_8 = after->covariance[29];
-            after->covariance[8] = after->covariance[8] + (p_2_8 * n_0);
-            const double p_2_9 = after->covariance[30];
-            after->covariance[9] = after->covariance[9] + (p_2_9 * n_0);
-            const double p_2_10 = after->covariance[31];
-            after->covariance[10] = after->covariance[10] + (p_2_10 * n_0);
-            const double p_2_11 = after->covariance[32];
-            after->covariance[11] = after->covariance[11] + (p_2_11 * n_0);
-            const double n_1 = p_1_2 * minus_per_s;
-            after->covariance[12] = after->covariance[12] + (p_1_2 * n_1);
-            after->covariance[13] = n_1 * minus_r;
-            after->covariance[14] = after->covariance[14] + (p_2_3 * n_1);
-            after->covariance[15] = after->covariance[15] + (p_2_4 * n_1);
-            after->covariance[16] = after->covariance[16] + (p_2_5 * n_1);
-            after->covariance[17] = after->covariance[17] + (p_2_6 * n_1);
-            after->covariance[18] = after->covariance[18] + (p_2_7 * n_1);
-            after->covariance[19] = after->covariance[19] + (p_2_8 * n_1);
-            after->covariance[20] = after->covariance[20] + (p_2_9 * n_1);
-            after->covariance[21] = after->covariance[21] + (p_2_10 * n_1);
-            after->covariance[22] = after->covariance[22] + (p_2_11 * n_1);
-            const double n_2 = p_2_2 * minus_per_s;
-            after->covariance[23] = n_2 * minus_r;
-            const double n_3 = p_2_3 * minus_per_s;
-            after->covariance[24] = n_3 * minus_r;
-            const double n_4 = p_2_4 * minus_per_s;
-            after->covariance[25] = n_4 * minus_r;
-            const double n_5 = p_2_5 * minus_per_s;
-            after->covariance[26] = n_5 * minus_r;
-            const double n_6 = p_2_6 * minus_per_s;
-            after->covariance[27] = n_6 * minus_r;
-            const double n_7 = p_2_7 * minus_per_s;
-            after->covariance[28] = n_7 * minus_r;
-            const double n_8 = p_2_8 * minus_per_s;
-            after->covariance[29] = n_8 * minus_r;
-            const double n_9 = p_2_9 * minus_per_s;
-            after->covariance[30] = n_9 * minus_r;
-            const double n_10 = p_2_10 * minus_per_s;
-            after->covariance[31] = n_10 * minus_r;
-            const double n_11 = p_2_11 * minus_per_s;
-            after->covariance[32] = n_11 * minus_r;
-            after->covariance[33] = after->covariance[33] + (p_2_3 * n_3);
-            after->covariance[34] = after->covariance[34] + (p_2_4 * n_3);
-            after->covariance[35] = after->covariance[35] + (p_2_5 * n_3);
-            after->covariance[36] = after->covariance[36] + (p_2_6 * n_3);
-            after->covariance[37] = after->covariance[37] + (p_2_7 * n_3);
-            after->covariance[38] = after->covariance[38] + (p_2_8 * n_3);
-            after->covariance[39] = after->covariance[39] + (p_2_9 * n_3);
-            after->covariance[40] = after->covariance[40] + (p_2_10 * n_3);
-            after->covariance[41] = after->covariance[41] + (p_2_11 * n_3);
-            after->covariance[42] = after->covariance[42] + (p_2_4 * n_4);
-            after->covariance[43] = after->covariance[43] + (p_2_5 * n_4);
-            after->covariance[44] = after->covariance[44] + (p_2_6 * n_4);
-            after->covariance[45] = after->covariance[45] + (p_2_7 * n_4);
-            after->covariance[46] = after->covariance[46] + (p_2_8 * n_4);
-            after->covariance[47] = after->covariance[47] + (p_2_9 * n_4);
-            after->covariance[48] = after->covariance[48] + (p_2_10 * n_4);
-            after->covariance[49] = after->covariance[49] + (p_2_11 * n_4);
-            after->covariance[50] = after->covariance[50] + (p_2_5 * n_5);
-            after->covariance[51] = after->covariance[51] + (p_2_6 * n_5);
-            after->covariance[52] = after->covariance[52] + (p_2_7 * n_5);
-            after->covariance[53] = after->covariance[53] + (p_2_8 * n_5);
-            after->covariance[54] = after->covariance[54] + (p_2_9 * n_5);
-            after->covariance[55] = after->covariance[55] + (p_2_10 * n_5);
-            after->covariance[56] = after->covariance[56] + (p_2_11 * n_5);
-            after->covariance[57] = after->covariance[57] + (p_2_6 * n_6);
-            after->covariance[58] = after->covariance[58] + (p_2_7 * n_6);
-            after->covariance[59] = after->covariance[59] + (p_2_8 * n_6);
-            after->covariance[60] = after->covariance[60] + (p_2_9 * n_6);
-            after->covariance[61] = after->covariance[61] + (p_2_10 * n_6);
-            after->covariance[62] = after->covariance[62] + (p_2_11 * n_6);
-            after->covariance[63] = after->covariance[63] + (p_2_7 * n_7);
-            after->covariance[64] = after->covariance[64] + (p_2_8 * n_7);
-            after->covariance[65] = after->covariance[65] + (p_2_9 * n_7);
-            after->covariance[66] = after->covariance[66] + (p_2_10 * n_7);
-            after->covariance[67] = after->covariance[67] + (p_2_11 * n_7);
-            after->covariance[68] = after->covariance[68] + (p_2_8 * n_8);
-            after->covariance[69] = after->covariance[69] + (p_2_9 * n_8);
-            after->covariance[70] = after->covariance[70] + (p_2_10 * n_8);
-            after->covariance[71] = after->covariance[71] + (p_2_11 * n_8);
-            after->covariance[72] = after->covariance[72] + (p_2_9 * n_9);
-            after->covariance[73] = after->covariance[73] + (p_2_10 * n_9);
-            after->covariance[74] = after->covariance[74] + (p_2_11 * n_9);
-            after->covariance[75] = after->covariance[75] + (p_2_10 * n_10);
-            after->covariance[76] = after->covariance[76] + (p_2_11 * n_10);
-            after->covariance[77] = after->covariance[77] + (p_2_11 * n_11);
-            const double delta_2 = delta[2];
-            const double e = residual_2 - delta_2;
-            const double minus_e = -e;
-            delta[0] = delta[0] + (n_0 * minus_e);
-            delta[1] = delta[1] + (n_1 * minus_e);
-            delta[2] = delta_2 + (n_2 * minus_e);
-            delta[3] = delta[3] + (n_3 * minus_e);
-            delta[4] = delta[4] + (n_4 * minus_e);
-            delta[5] = delta[5] + (n_5 * minus_e);
-            delta[6] = delta[6] + (n_6 * minus_e);
-            delta[7] = delta[7] + (n_7 * minus_e);
-            delta[8] = delta[8] + (n_8 * minus_e);
-            delta[9] = delta[9] + (n_9 * minus_e);
-            delta[10] = delta[10] + (n_10 * minus_e);
-            delta[11] = delta[11] + (n_11 * minus_e);
-            nis[0] = nis[0] + (e * (per_s * e));
-            row_variance[2] = s;
-        }
-
-        /* row 3: d = d + K e, P = P - K s K'; the measured row as r K */
-        {
-            const double p_0_3 = after->covariance[3];
-            const double r_3 = params->variance_pose[3];
-            const double p_3_3 = after->covariance[33];
-            const double s = r_3 + p_3_3;
-            const double per_s = 1.0 / ((s >= 1.0e-20) ? s : 1.0);
-            const double minus_per_s = -per_s;
-            const double n_0 = p_0_3 * minus_per_s;
-            after->covariance[0] = after->covariance[0] + (p_0_3 * n_0);
-            const double p_1_3 = after->covariance[14];
-            after->covariance[1] = after->covariance[1] + (p_1_3 * n_0);
-            const double p_2_3 = after->covariance[24];
-            after->covariance[2] = after->covariance[2] + (p_2_3 * n_0);
-            const double minus_r = -r_3;
-            after->covariance[3] = n_0 * minus_r;
-            const double p_3_4 = after->covariance[34];
-            after->covariance[4] = after->covariance[4] + (p_3_4 * n_0);
-            const double p_3_5 = after->covariance[35];
-            after->covariance[5] = after->covariance[5] + (p_3_5 * n_0);
-            const double p_3_6 = after->covariance[36];
-            after->covariance[6] = after->covariance[6] + (p_3_6 * n_0);
-            const double p_3_7 = after->covariance[37];
-            after->covariance[7] = after->covariance[7] + (p_3_7 * n_0);
-            const double p_3_8 = after->covariance[38];
-            after->covariance[8] = after->covariance[8] + (p_3_8 * n_0);
-            const double p_3_9 = after->covariance[39];
-            after->covariance[9] = after->covariance[9] + (p_3_9 * n_0);
-            const double p_3_10 = after->covariance[40];
-            after->covariance[10] = after->covariance[10] + (p_3_10 * n_0);
-            const double p_3_11 = after->covariance[41];
-            after->covariance[11] = after->covariance[11] + (p_3_11 * n_0);
-            const double n_1 = p_1_3 * minus_per_s;
-            after->covariance[12] = after->covariance[12] + (p_1_3 * n_1);
-            after->covariance[13] = after->covariance[13] + (p_2_3 * n_1);
-            after->covariance[14] = n_1 * minus_r;
-            after->covariance[15] = after->covariance[15] + (p_3_4 * n_1);
-            after->covariance[16] = after->covariance[16] + (p_3_5 * n_1);
-            after->covariance[17] = after->covariance[17] + (p_3_6 * n_1);
-            after->covariance[18] = after->covariance[18] + (p_3_7 * n_1);
-            after->covariance[19] = after->covariance[19] + (p_3_8 * n_1);
-            after->covariance[20] = after->covariance[20] + (p_3_9 * n_1);
-            after->covariance[21] = after->covariance[21] + (p_3_10 * n_1);
-            after->covariance[22] = after->covariance[22] + (p_3_11 * n_1);
-            const double n_2 = p_2_3 * minus_per_s;
-            after->covariance[23] = after->covariance[23] + (p_2_3 * n_2);
-            after->covariance[24] = n_2 * minus_r;
-            after->covariance[25] = after->covariance[25] + (p_3_4 * n_2);
-            after->covariance[26] = after->covariance[26] + (p_3_5 * n_2);
-            after->covariance[27] = after->covariance[27] + (p_3_6 * n_2);
-            after->covariance[28] = after->covariance[28] + (p_3_7 * n_2);
-            after->covariance[29] = after->covariance[29] + (p_3_8 * n_2);
-            after->covariance[30] = after->covariance[30] + (p_3_9 * n_2);
-            after->covariance[31] = after->covariance[31] + (p_3_10 * n_2);
-            after->covariance[32] = after->covariance[32] + (p_3_11 * n_2);
-            const double n_3 = p_3_3 * minus_per_s;
-            after->covariance[33] = n_3 * minus_r;
-            const double n_4 = p_3_4 * minus_per_s;
-            after->covariance[34] = n_4 * minus_r;
-            const double n_5 = p_3_5 * minus_per_s;
-            after->covariance[35] = n_5 * minus_r;
-            const double n_6 = p_3_6 * minus_per_s;
-            after->covariance[36] = n_6 * minus_r;
-            const double n_7 = p_3_7 * minus_per_s;
-            after->covariance[37] = n_7 * minus_r;
-            const double n_8 = p_3_8 * minus_per_s;
-            after->covariance[38] = n_8 * minus_r;
-            const double n_9 = p_3_9 * minus_per_s;
-            after->covariance[39] = n_9 * minus_r;
-            const double n_10 = p_3_10 * minus_per_s;
-            after->covariance[40] = n_10 * minus_r;
-            const double n_11 = p_3_11 * minus_per_s;
-            after->covariance[41] = n_11 * minus_r;
-            after->covariance[42] = after->covariance[42] + (p_3_4 * n_4);
-            after->covariance[43] = after->covariance[43] + (p_3_5 * n_4);
-            after->covariance[44] = after->covariance[44] + (p_3_6 * n_4);
-            after->covariance[45] = after->covariance[45] + (p_3_7 * n_4);
-            after->covariance[46] = after->covariance[46] + (p_3_8 * n_4);
-            after->covariance[47] = after->covariance[47] + (p_3_9 * n_4);
-            after->covariance[48] = after->covariance[48] + (p_3_10 * n_4);
-            after->covariance[49] = after->covariance[49] + (p_3_11 * n_4);
-            after->covariance[50] = after->covariance[50] + (p_3_5 * n_5);
-            after->covariance[51] = after->covariance[51] + (p_3_6 * n_5);
-            after->covariance[52] = after->covariance[52] + (p_3_7 * n_5);
-            after->covariance[53] = after->covariance[53] + (p_3_8 * n_5);
-            after->covariance[54] = after->covariance[54] + (p_3_9 * n_5);
-            after->covariance[55] = after->covariance[55] + (p_3_10 * n_5);
-            after->covariance[56] = after->covariance[56] + (p_3_11 * n_5);
-            after->covariance[57] = after->covariance[57] + (p_3_6 * n_6);
-            after->covariance[58] = after->covariance[58] + (p_3_7 * n_6);
-            after->covariance[59] = after->covariance[59] + (p_3_8 * n_6);
-            after->covariance[60] = after->covariance[60] + (p_3_9 * n_6);
-            after->covariance[61] = after->covariance[61] + (p_3_10 * n_6);
-            after->covariance[62] = after->covariance[62] + (p_3_11 * n_6);
-            after->covariance[63] = after->covariance[63] + (p_3_7 * n_7);
-            after->covariance[64] = after->covariance[64] + (p_3_8 * n_7);
-            after->covariance[65] = after->covariance[65] + (p_3_9 * n_7);
-            after->covariance[66] = after->covariance[66] + (p_3_10 * n_7);
-            after->covariance[67] = after->covariance[67] + (p_3_11 * n_7);
-            after->covariance[68] = after->covariance[68] + (p_3_8 * n_8);
-            after->covariance[69] = after->covariance[69] + (p_3_9 * n_8);
-            after->covariance[70] = after->covariance[70] + (p_3_10 * n_8);
-            after->covariance[71] = after->covariance[71] + (p_3_11 * n_8);
-            after->covariance[72] = after->covariance[72] + (p_3_9 * n_9);
-            after->covariance[73] = after->covariance[73] + (p_3_10 * n_9);
-            after->covariance[74] = after->covariance[74] + (p_3_11 * n_9);
-            after->covariance[75] = after->covariance[75] + (p_3_10 * n_10);
-            after->covariance[76] = after->covariance[76] + (p_3_11 * n_10);
-            after->covariance[77] = after->covariance[77] + (p_3_11 * n_11);
-            const double delta_3 = delta[3];
-            const double e = residual_3 - delta_3;
-            const double minus_e = -e;
-            delta[0] = delta[0] + (n_0 * minus_e);
-            delta[1] = delta[1] + (n_1 * minus_e);
-            delta[2] = delta[2] + (n_2 * minus_e);
-            delta[3] = delta_3 + (n_3 * minus_e);
-            delta[4] = delta[4] + (n_4 * minus_e);
-            delta[5] = delta[5] + (n_5 * minus_e);
-            delta[6] = delta[6] + (n_6 * minus_e);
-            delta[7] = delta[7] + (n_7 * minus_e);
-            delta[8] = delta[8] + (n_8 * minus_e);
-            delta[9] = delta[9] + (n_9 * minus_e);
-            delta[10] = delta[10] + (n_10 * minus_e);
-            delta[11] = delta[11] + (n_11 * minus_e);
-            nis[0] = nis[0] + (e * (per_s * e));
-            row_variance[3] = s;
-        }
-
-        /* row 4: d = d + K e, P = P - K s K'; the measured row as r K */
-        {
-            const double p_0_4 = after->covariance[4];
-            const double r_4 = params->variance_pose[4];
-            const double p_4_4 = after->covariance[42];
-            const double s = r_4 + p_4_4;
-            const double per_s = 1.0 / ((s >= 1.0e-20) ? s : 1.0);
-            const double minus_per_s = -per_s;
-            const double n_0 = p_0_4 * minus_per_s;
-            after->covariance[0] = after->covariance[0] + (p_0_4 * n_0);
-            const double p_1_4 = after->covariance[15];
-            after->covariance[1] = after->covariance[1] + (p_1_4 * n_0);
-            const double p_2_4 = after->covariance[25];
-            after->covariance[2] = after->covariance[2] + (p_2_4 * n_0);
-            const double p_3_4 = after->covariance[34];
-            after->covariance[3] = after->covariance[3] + (p_3_4 * n_0);
-            const double minus_r = -r_4;
-            after->covariance[4] = n_0 * minus_r;
-            const double p_4_5 = after->covariance[43];
-            after->covariance[5] = after->covariance[5] + (p_4_5 * n_0);
-            const double p_4_6 = after->covariance[44];
-            after->covariance[6] = after->covariance[6] + (p_4_6 * n_0);
-            const double p_4_7 = after->covariance[45];
-            after->covariance[7] = after->covariance[7] + (p_4_7 * n_0);
-            const double p_4_8 = after->covariance[46];
-            after->covariance[8] = after->covariance[8] + (p_4_8 * n_0);
-            const double p_4_9 = after->covariance[47];
-            after->covariance[9] = after->covariance[9] + (p_4_9 * n_0);
-            const double p_4_10 = after->covariance[48];
-            after->covariance[10] = after->covariance[10] + (p_4_10 * n_0);
-            const double p_4_11 = after->covariance[49];
-            after->covariance[11] = after->covariance[11] + (p_4_11 * n_0);
-            const double n_1 = p_1_4 * minus_per_s;
-            after->covariance[12] = after->covariance[12] + (p_1_4 * n_1);
-            after->covariance[13] = after->covariance[13] + (p_2_4 * n_1);
-            after->covariance[14] = after->covariance[14] + (p_3_4 * n_1);
-            after->covariance[15] = n_1 * minus_r;
-            after->covariance[16] = after->covariance[16] + (p_4_5 * n_1);
-            after->covariance[17] = after->covariance[17] + (p_4_6 * n_1);
-            after->covariance[18] = after->covariance[18] + (p_4_7 * n_1);
-            after->covariance[19] = after->covariance[19] + (p_4_8 * n_1);
-            after->covariance[20] = after->covariance[20] + (p_4_9 * n_1);
-            after->covariance[21] = after->covariance[21] + (p_4_10 * n_1);
-            after->covariance[22] = after->covariance[22] + (p_4_11 * n_1);
-            const double n_2 = p_2_4 * minus_per_s;
-            after->covariance[23] = after->covariance[23] + (p_2_4 * n_2);
-            after->covariance[24] = after->covariance[24] + (p_3_4 * n_2);
-            after->covariance[25] = n_2 * minus_r;
-            after->covariance[26] = after->covariance[26] + (p_4_5 * n_2);
-            after->covariance[27] = after->covariance[27] + (p_4_6 * n_2);
-            after->covariance[28] = after->covariance[28] + (p_4_7 * n_2);
-            after->covariance[29] = after->covariance[29] + (p_4_8 * n_2);
-            after->covariance[30] = after->covariance[30] + (p_4_9 * n_2);
-            after->covariance[31] = after->covariance[31] + (p_4_10 * n_2);
-            after->covariance[32] = after->covariance[32] + (p_4_11 * n_2);
-            const double n_3 = p_3_4 * minus_per_s;
-            after->covariance[33] = after->covariance[33] + (p_3_4 * n_3);
-            after->covariance[34] = n_3 * minus_r;
-            after->covariance[35] = after->covariance[35] + (p_4_5 * n_3);
-            after->covariance[36] = after->covariance[36] + (p_4_6 * n_3);
-            after->covariance[37] = after->covariance[37] + (p_4_7 * n_3);
-            after->covariance[38] = after->covariance[38] + (p_4_8 * n_3);
-            after->covariance[39] = after->covariance[39] + (p_4_9 * n_3);
-            after->covariance[40] = after->covariance[40] + (p_4_10 * n_3);
-            after->covariance[41] = after->covariance[41] + (p_4_11 * n_3);
-            const double n_4 = p_4_4 * minus_per_s;
-            after->covariance[42] = n_4 * minus_r;
-            const double n_5 = p_4_5 * minus_per_s;
-            after->covariance[43] = n_5 * minus_r;
-            const double n_6 = p_4_6 * minus_per_s;
-            after->covariance[44] = n_6 * minus_r;
-            const double n_7 = p_4_7 * minus_per_s;
-            after->covariance[45] = n_7 * minus_r;
-            const double n_8 = p_4_8 * minus_per_s;
-            after->covariance[46] = n_8 * minus_r;
-            const double n_9 = p_4_9 * minus_per_s;
-            after->covariance[47] = n_9 * minus_r;
-            const double n_10 = p_4_10 * minus_per_s;
-            after->covariance[48] = n_10 * minus_r;
-            const double n_11 = p_4_11 * minus_per_s;
-            after->covariance[49] = n_11 * minus_r;
-            after->covariance[50] = after->covariance[50] + (p_4_5 * n_5);
-            after->covariance[51] = after->covariance[51] + (p_4_6 * n_5);
-            after->covariance[52] = after->covariance[52] + (p_4_7 * n_5);
-            after->covariance[53] = after->covariance[53] + (p_4_8 * n_5);
-            after->covariance[54] = after->covariance[54] + (p_4_9 * n_5);
-            after->covariance[55] = after->covariance[55] + (p_4_10 * n_5);
-            after->covariance[56] = after->covariance[56] + (p_4_11 * n_5);
-            after->covariance[57] = after->covariance[57] + (p_4_6 * n_6);
-            after->covariance[58] = after->covariance[58] + (p_4_7 * n_6);
-            after->covariance[59] = after->covariance[59] + (p_4_8 * n_6);
-            after->covariance[60] = after->covariance[60] + (p_4_9 * n_6);
-            after->covariance[61] = after->covariance[61] + (p_4_10 * n_6);
-            after->covariance[62] = after->covariance[62] + (p_4_11 * n_6);
-            after->covariance[63] = after->covariance[63] + (p_4_7 * n_7);
-            after->covariance[64] = after->covariance[64] + (p_4_8 * n_7);
-            after->covariance[65] = after->covariance[65] + (p_4_9 * n_7);
-            after->covariance[66] = after->covariance[66] + (p_4_10 * n_7);
-            after->covariance[67] = after->covariance[67] + (p_4_11 * n_7);
-            after->covariance[68] = after->covariance[68] + (p_4_8 * n_8);
-            after->covariance[69] = after->covariance[69] + (p_4_9 * n_8);
-            after->covariance[70] = after->covariance[70] + (p_4_10 * n_8);
-            after->covariance[71] = after->covariance[71] + (p_4_11 * n_8);
-            after->covariance[72] = after->covariance[72] + (p_4_9 * n_9);
-            after->covariance[73] = after->covariance[73] + (p_4_10 * n_9);
-            after->covariance[74] = after->covariance[74] + (p_4_11 * n_9);
-            after->covariance[75] = after->covariance[75] + (p_4_10 * n_10);
-            after->covariance[76] = after->covariance[76] + (p_4_11 * n_10);
-            after->covariance[77] = after->covariance[77] + (p_4_11 * n_11);
-            const double delta_4 = delta[4];
-            const double e = residual_4 - delta_4;
-            const double minus_e = -e;
-            delta[0] = delta[0] + (n_0 * minus_e);
-            delta[1] = delta[1] + (n_1 * minus_e);
-            delta[2] = delta[2] + (n_2 * minus_e);
-            delta[3] = delta[3] + (n_3 * minus_e);
-            delta[4] = delta_4 + (n_4 * minus_e);
-            delta[5] = delta[5] + (n_5 * minus_e);
-            delta[6] = delta[6] + (n_6 * minus_e);
-            delta[7] = delta[7] + (n_7 * minus_e);
-            delta[8] = delta[8] + (n_8 * minus_e);
-            delta[9] = delta[9] + (n_9 * minus_e);
-            delta[10] = delta[10] + (n_10 * minus_e);
-            delta[11] = delta[11] + (n_11 * minus_e);
-            nis[0] = nis[0] + (e * (per_s * e));
-            row_variance[4] = s;
-        }
-
-        /* row 5: d = d + K e, P = P - K s K'; the measured row as r K */
-        {
-            const double p_0_5 = after->covariance[5];
-            const double r_5 = params->variance_pose[5];
-            const double p_5_5 = after->covariance[50];
-            const double s = r_5 + p_5_5;
-            const double per_s = 1.0 / ((s >= 1.0e-20) ? s : 1.0);
-            const double minus_per_s = -per_s;
-            const double n_0 = p_0_5 * minus_per_s;
-            after->covariance[0] = after->covariance[0] + (p_0_5 * n_0);
-            const double p_1_5 = after->covariance[16];
-            after->covariance[1] = after->covariance[1] + (p_1_5 * n_0);
-            const double p_2_5 = after->covariance[26];
-            after->covariance[2] = after->covariance[2] + (p_2_5 * n_0);
-            const double p_3_5 = after->covariance[35];
-            after->covariance[3] = after->covariance[3] + (p_3_5 * n_0);
-            const double p_4_5 = after->covariance[43];
-            after->covariance[4] = after->covariance[4] + (p_4_5 * n_0);
-            const double minus_r = -r_5;
-            after->covariance[5] = n_0 * minus_r;
-            const double p_5_6 = after->covariance[51];
-            after->covariance[6] = after->covariance[6] + (p_5_6 * n_0);
-            const double p_5_7 = after->covariance[52];
-            after->covariance[7] = after->covariance[7] + (p_5_7 * n_0);
-            const double p_5_8 = after->covariance[53];
-            after->covariance[8] = after->covariance[8] + (p_5_8 * n_0);
-            const double p_5_9 = after->covariance[54];
-            after->covariance[9] = after->covariance[9] + (p_5_9 * n_0);
-            const double p_5_10 = after->covariance[55];
-            after->covariance[10] = after->covariance[10] + (p_5_10 * n_0);
-            const double p_5_11 = after->covariance[56];
-            after->covariance[11] = after->covariance[11] + (p_5_11 * n_0);
-            const double n_1 = p_1_5 * minus_per_s;
-            after->covariance[12] = after->covariance[12] + (p_1_5 * n_1);
-            after->covariance[13] = after->covariance[13] + (p_2_5 * n_1);
-            after->covariance[14] = after->covariance[14] + (p_3_5 * n_1);
-            after->covariance[15] = after->covariance[15] + (p_4_5 * n_1);
-            after->covariance[16] = n_1 * minus_r;
-            after->covariance[17] = after->covariance[17] + (p_5_6 * n_1);
-            after->covariance[18] = after->covariance[18] + (p_5_7 * n_1);
-            after->covariance[19] = after->covariance[19] + (p_5_8 * n_1);
-            after->covariance[20] = after->covariance[20] + (p_5_9 * n_1);
-            after->covariance[21] = after->covariance[21] + (p_5_10 * n_1);
-            after->covariance[22] = after->covariance[22] + (p_5_11 * n_1);
-            const double n_2 = p_2_5 * minus_per_s;
-            after->covariance[23] = after->covariance[23] + (p_2_5 * n_2);
-            after->covariance[24] = after->covariance[24] + (p_3_5 * n_2);
-            after->covariance[25] = after->covariance[25] + (p_4_5 * n_2);
-            after->covariance[26] = n_2 * minus_r;
-            after->covariance[27] = after->covariance[27] + (p_5_6 * n_2);
-            after->covariance[28] = after->covariance[28] + (p_5_7 * n_2);
-            after->covariance[29] = after->covariance[29] + (p_5_8 * n_2);
-            after->covariance[30] = after->covariance[30] + (p_5_9 * n_2);
-            after->covariance[31] = after->covariance[31] + (p_5_10 * n_2);
-            after->covariance[32] = after->covariance[32] + (p_5_11 * n_2);
-            const double n_3 = p_3_5 * minus_per_s;
-            after->covariance[33] = after->covariance[33] + (p_3_5 * n_3);
-            after->covariance[34] = after->covariance[34] + (p_4_5 * n_3);
-            after->covariance[35] = n_3 * minus_r;
-            after->covariance[36] = after->covariance[36] + (p_5_6 * n_3);
-            after->covariance[37] = after->covariance[37] + (p_5_7 * n_3);
-            after->covariance[38] = after->covariance[38] + (p_5_8 * n_3);
-            after->covariance[39] = after->covariance[39] + (p_5_9 * n_3);
-            after->covariance[40] = after->covariance[40] + (p_5_10 * n_3);
-            after->covariance[41] = after->covariance[41] + (p_5_11 * n_3);
-            const double n_4 = p_4_5 * minus_per_s;
-            after->covariance[42] = after->covariance[42] + (p_4_5 * n_4);
-            after->covariance[43] = n_4 * minus_r;
-            after->covariance[44] = after->covariance[44] + (p_5_6 * n_4);
-            after->covariance[45] = after->covariance[45] + (p_5_7 * n_4);
-            after->covariance[46] = after->covariance[46] + (p_5_8 * n_4);
-            after->covariance[47] = after->covariance[47] + (p_5_9 * n_4);
-            after->covariance[48] = after->covariance[48] + (p_5_10 * n_4);
-            after->covariance[49] = after->covariance[49] + (p_5_11 * n_4);
-            const double n_5 = p_5_5 * minus_per_s;
-            after->covariance[50] = n_5 * minus_r;
-            const double n_6 = p_5_6 * minus_per_s;
-            after->covariance[51] = n_6 * minus_r;
-            const double n_7 = p_5_7 * minus_per_s;
-            after->covariance[52] = n_7 * minus_r;
-            const double n_8 = p_5_8 * minus_per_s;
-            after->covariance[53] = n_8 * minus_r;
-            const double n_9 = p_5_9 * minus_per_s;
-            after->covariance[54] = n_9 * minus_r;
-            const double n_10 = p_5_10 * minus_per_s;
-            after->covariance[55] = n_10 * minus_r;
-            const double n_11 = p_5_11 * minus_per_s;
-            after->covariance[56] = n_11 * minus_r;
-            after->covariance[57] = after->covariance[57] + (p_5_6 * n_6);
-            after->covariance[58] = after->covariance[58] + (p_5_7 * n_6);
-            after->covariance[59] = after->covariance[59] + (p_5_8 * n_6);
-            after->covariance[60] = after->covariance[60] + (p_5_9 * n_6);
-            after->covariance[61] = after->covariance[61] + (p_5_10 * n_6);
-            after->covariance[62] = after->covariance[62] + (p_5_11 * n_6);
-            after->covariance[63] = after->covariance[63] + (p_5_7 * n_7);
-            after->covariance[64] = after->covariance[64] + (p_5_8 * n_7);
-            after->covariance[65] = after->covariance[65] + (p_5_9 * n_7);
-            after->covariance[66] = after->covariance[66] + (p_5_10 * n_7);
-            after->covariance[67] = after->covariance[67] + (p_5_11 * n_7);
-            after->covariance[68] = after->covariance[68] + (p_5_8 * n_8);
-            after->covariance[69] = after->covariance[69] + (p_5_9 * n_8);
-            after->covariance[70] = after->covariance[70] + (p_5_10 * n_8);
-            after->covariance[71] = after->covariance[71] + (p_5_11 * n_8);
-            after->covariance[72] = after->covariance[72] + (p_5_9 * n_9);
-            after->covariance[73] = after->covariance[73] + (p_5_10 * n_9);
-            after->covariance[74] = after->covariance[74] + (p_5_11 * n_9);
-            after->covariance[75] = after->covariance[75] + (p_5_10 * n_10);
-            after->covariance[76] = after->covariance[76] + (p_5_11 * n_10);
-            after->covariance[77] = after->covariance[77] + (p_5_11 * n_11);
-            const double delta_5 = delta[5];
-            const double e = residual_5 - delta_5;
-            const double minus_e = -e;
-            delta[0] = delta[0] + (n_0 * minus_e);
-            delta[1] = delta[1] + (n_1 * minus_e);
-            delta[2] = delta[2] + (n_2 * minus_e);
-            delta[3] = delta[3] + (n_3 * minus_e);
-            delta[4] = delta[4] + (n_4 * minus_e);
-            delta[5] = delta_5 + (n_5 * minus_e);
-            delta[6] = delta[6] + (n_6 * minus_e);
-            delta[7] = delta[7] + (n_7 * minus_e);
-            delta[8] = delta[8] + (n_8 * minus_e);
-            delta[9] = delta[9] + (n_9 * minus_e);
-            delta[10] = delta[10] + (n_10 * minus_e);
-            delta[11] = delta[11] + (n_11 * minus_e);
-            nis[0] = nis[0] + (e * (per_s * e));
-            row_variance[5] = s;
-        }
-
-        /* row 6: d = d + K e, P = P - K s K'; the measured row as r K */
-        {
-            const double p_0_6 = after->covariance[6];
-            const double r_6 = params->variance_pose[6];
-            const double p_6_6 = after->covariance[57];
-            const double s = r_6 + p_6_6;
-            const double per_s = 1.0 / ((s >= 1.0e-20) ? s : 1.0);
-            const double minus_per_s = -per_s;
-            const double n_0 = p_0_6 * minus_per_s;
-            after->covariance[0] = after->covariance[0] + (p_0_6 * n_0);
-            const double p_1_6 = after->covariance[17];
-            after->covariance[1] = after->covariance[1] + (p_1_6 * n_0);
-            const double p_2_6 = after->covariance[27];
-            after->covariance[2] = after->covariance[2] + (p_2_6 * n_0);
-            const double p_3_6 = after->covariance[36];
-            after->covariance[3] = after->covariance[3] + (p_3_6 * n_0);
-            const double p_4_6 = after->covariance[44];
-            after->covariance[4] = after->covariance[4] + (p_4_6 * n_0);
-            const double p_5_6 = after->covariance[51];
-            after->covariance[5] = after->covariance[5] + (p_5_6 * n_0);
-            const double minus_r = -r_6;
-            after->covariance[6] = n_0 * minus_r;
-            const double p_6_7 = after->covariance[58];
-            after->covariance[7] = after->covariance[7] + (p_6_7 * n_0);
-            const double p_6_8 = after->covariance[59];
-            after->covariance[8] = after->covariance[8] + (p_6_8 * n_0);
-            const double p_6_9 = after->covariance[60];
-            after->covariance[9] = after->covariance[9] + (p_6_9 * n_0);
-            const double p_6_10 = after->covariance[61];
-            after->covariance[10] = after->covariance[10] + (p_6_10 * n_0);
-            const double p_6_11 = after->covariance[62];
-            after->covariance[11] = after->covariance[11] + (p_6_11 * n_0);
-            const double n_1 = p_1_6 * minus_per_s;
-            after->covariance[12] = after->covariance[12] + (p_1_6 * n_1);
-            after->covariance[13] = after->covariance[13] + (p_2_6 * n_1);
-            after->covariance[14] = after->covariance[14] + (p_3_6 * n_1);
-            after->covariance[15] = after->covariance[15] + (p_4_6 * n_1);
-            after->covariance[16] = after->covariance[16] + (p_5_6 * n_1);
-            after->covariance[17] = n_1 * minus_r;
-            after->covariance[18] = after->covariance[18] + (p_6_7 * n_1);
-            after->covariance[19] = after->covariance[19] + (p_6_8 * n_1);
-            after->covariance[20] = after->covariance[20] + (p_6_9 * n_1);
-            after->covariance[21] = after->covariance[21] + (p_6_10 * n_1);
-            after->covariance[22] = after->covariance[22] + (p_6_11 * n_1);
-            const double n_2 = p_2_6 * minus_per_s;
-            after->covariance[23] = after->covariance[23] + (p_2_6 * n_2);
-            after->covariance[24] = after->covariance[24] + (p_3_6 * n_2);
-            after->covariance[25] = after->covariance[25] + (p_4_6 * n_2);
-            after->covariance[26] = after->covariance[26] + (p_5_6 * n_2);
-            after->covariance[27] = n_2 * minus_r;
-            after->covariance[28] = after->covariance[28] + (p_6_7 * n_2);
-            after->covariance[29] = after->covariance[29] + (p_6_8 * n_2);
-            after->covariance[30] = after->covariance[30] + (p_6_9 * n_2);
-            after->covariance[31] = after->covariance[31] + (p_6_10 * n_2);
-            after->covariance[32] = after->covariance[32] + (p_6_11 * n_2);
-            const double n_3 = p_3_6 * minus_per_s;
-            after->covariance[33] = after->covariance[33] + (p_3_6 * n_3);
-            after->covariance[34] = after->covariance[34] + (p_4_6 * n_3);
-            after->covariance[35] = after->covariance[35] + (p_5_6 * n_3);
-            after->covariance[36] = n_3 * minus_r;
-            after->covariance[37] = after->covariance[37] + (p_6_7 * n_3);
-            after->covariance[38] = after->covariance[38] + (p_6_8 * n_3);
-            after->covariance[39] = after->covariance[39] + (p_6_9 * n_3);
-            after->covariance[40] = after->covariance[40] + (p_6_10 * n_3);
-            after->covariance[41] = after->covariance[41] + (p_6_11 * n_3);
-            const double n_4 = p_4_6 * minus_per_s;
-            after->covariance[42] = after->covariance[42] + (p_4_6 * n_4);
-            after->covariance[43] = after->covariance[43] + (p_5_6 * n_4);
-            after->covariance[44] = n_4 * minus_r;
-            after->covariance[45] = after->covariance[45] + (p_6_7 * n_4);
-            after->covariance[46] = after->covariance[46] + (p_6_8 * n_4);
-            after->covariance[47] = after->covariance[47] + (p_6_9 * n_4);
-            after->covariance[48] = after->covariance[48] + (p_6_10 * n_4);
-            after->covariance[49] = after->covariance[49] + (p_6_11 * n_4);
-            const double n_5 = p_5_6 * minus_per_s;
-            after->covariance[50] = after->covariance[50] + (p_5_6 * n_5);
-            after->covariance[51] = n_5 * minus_r;
-            after->covariance[52] = after->covariance[52] + (p_6_7 * n_5);
-            after->covariance[53] = after->covariance[53] + (p_6_8 * n_5);
-            after->covariance[54] = after->covariance[54] + (p_6_9 * n_5);
-            after->covariance[55] = after->covariance[55] + (p_6_10 * n_5);
-            after->covariance[56] = after->covariance[56] + (p_6_11 * n_5);
-            const double n_6 = p_6_6 * minus_per_s;
-            after->covariance[57] = n_6 * minus_r;
-            const double n_7 = p_6_7 * minus_per_s;
-            after->covariance[58] = n_7 * minus_r;
-            const double n_8 = p_6_8 * minus_per_s;
-            after->covariance[59] = n_8 * minus_r;
-            const double n_9 = p_6_9 * minus_per_s;
-            after->covariance[60] = n_9 * minus_r;
-            const double n_10 = p_6_10 * minus_per_s;
-            after->covariance[61] = n_10 * minus_r;
-            const double n_11 = p_6_11 * minus_per_s;
-            after->covariance[62] = n_11 * minus_r;
-            after->covariance[63] = after->covariance[63] + (p_6_7 * n_7);
-            after->covariance[64] = after->covariance[64] + (p_6_8 * n_7);
-            after->covariance[65] = after->covariance[65] + (p_6_9 * n_7);
-            after->covariance[66] = after->covariance[66] + (p_6_10 * n_7);
-            after->covariance[67] = after->covariance[67] + (p_6_11 * n_7);
-            after->covariance[68] = after->covariance[68] + (p_6_8 * n_8);
-            after->covariance[69] = after->covariance[69] + (p_6_9 * n_8);
-            after->covariance[70] = after->covariance[70] + (p_6_10 * n_8);
-            after->covariance[71] = after->covariance[71] + (p_6_11 * n_8);
-            after->covariance[72] = after->covariance[72] + (p_6_9 * n_9);
-            after->covariance[73] = after->covariance[73] + (p_6_10 * n_9);
-            after->covariance[74] = after->covariance[74] + (p_6_11 * n_9);
-            after->covariance[75] = after->covariance[75] + (p_6_10 * n_10);
-            after->covariance[76] = after->covariance[76] + (p_6_11 * n_10);
-            after->covariance[77] = after->covariance[77] + (p_6_11 * n_11);
-            const double delta_6 = delta[6];
-            const double e = residual_6 - delta_6;
-            const double minus_e = -e;
-            delta[0] = delta[0] + (n_0 * minus_e);
-            delta[1] = delta[1] + (n_1 * minus_e);
-            delta[2] = delta[2] + (n_2 * minus_e);
-            delta[3] = delta[3] + (n_3 * minus_e);
-            delta[4] = delta[4] + (n_4 * minus_e);
-            delta[5] = delta[5] + (n_5 * minus_e);
-            delta[6] = delta_6 + (n_6 * minus_e);
-            delta[7] = delta[7] + (n_7 * minus_e);
-            delta[8] = delta[8] + (n_8 * minus_e);
-            delta[9] = delta[9] + (n_9 * minus_e);
-            delta[10] = delta[10] + (n_10 * minus_e);
-            delta[11] = delta[11] + (n_11 * minus_e);
-            nis[0] = nis[0] + (e * (per_s * e));
-            row_variance[6] = s;
-        }
-
-        /* row 7: d = d + K e, P = P - K s K'; the measured row as r K */
-        {
-            const double p_0_7 = after->covariance[7];
-            const double r_7 = params->variance_pose[7];
-            const double p_7_7 = after->covariance[63];
-            const double s = r_7 + p_7_7;
-            const double per_s = 1.0 / ((s >= 1.0e-20) ? s : 1.0);
-            const double minus_per_s = -per_s;
-            const double n_0 = p_0_7 * minus_per_s;
-            after->covariance[0] = after->covariance[0] + (p_0_7 * n_0);
-            const double p_1_7 = after->covariance[18];
-            after->covariance[1] = after->covariance[1] + (p_1_7 * n_0);
-            const double p_2_7 = after->covariance[28];
-            after->covariance[2] = after->covariance[2] + (p_2_7 * n_0);
-            const double p_3_7 = after->covariance[37];
-            after->covariance[3] = after->covariance[3] + (p_3_7 * n_0);
-            const double p_4_7 = after->covariance[45];
-            after->covariance[4] = after->covariance[4] + (p_4_7 * n_0);
-            const double p_5_7 = after->covariance[52];
-            after->covariance[5] = after->covariance[5] + (p_5_7 * n_0);
-            const double p_6_7 = after->covariance[58];
-            after->covariance[6] = after->covariance[6] + (p_6_7 * n_0);
-            const double minus_r = -r_7;
-            after->covariance[7] = n_0 * minus_r;
-            const double p_7_8 = after->covariance[64];
-            after->covariance[8] = after->covariance[8] + (p_7_8 * n_0);
-            const double p_7_9 = after->covariance[65];
-            after->covariance[9] = after->covariance[9] + (p_7_9 * n_0);
-            const double p_7_10 = after->covariance[66];
-            after->covariance[10] = after->covariance[10] + (p_7_10 * n_0);
-            const double p_7_11 = after->covariance[67];
-            after->covariance[11] = after->covariance[11] + (p_7_11 * n_0);
-            const double n_1 = p_1_7 * minus_per_s;
-            after->covariance[12] = after->covariance[12] + (p_1_7 * n_1);
-            after->covariance[13] = after->covariance[13] + (p_2_7 * n_1);
-            after->covariance[14] = after->covariance[14] + (p_3_7 * n_1);
-            after->covariance[15] = after->covariance[15] + (p_4_7 * n_1);
-            after->covariance[16] = after->covariance[16] + (p_5_7 * n_1);
-            after->covariance[17] = after->covariance[17] + (p_6_7 * n_1);
-            after->covariance[18] = n_1 * minus_r;
-            after->covariance[19] = after->covariance[19] + (p_7_8 * n_1);
-            after->covariance[20] = after->covariance[20] + (p_7_9 * n_1);
-            after->covariance[21] = after->covariance[21] + (p_7_10 * n_1);
-            after->covariance[22] = after->covariance[22] + (p_7_11 * n_1);
-            const double n_2 = p_2_7 * minus_per_s;
-            after->covariance[23] = after->covariance[23] + (p_2_7 * n_2);
-            after->covariance[24] = after->covariance[24] + (p_3_7 * n_2);
-            after->covariance[25] = after->covariance[25] + (p_4_7 * n_2);
-            after->covariance[26] = after->covariance[26] + (p_5_7 * n_2);
-            after->covariance[27] = after->covariance[27] + (p_6_7 * n_2);
-            after->covariance[28] = n_2 * minus_r;
-            after->covariance[29] = after->covariance[29] + (p_7_8 * n_2);
-            after->covariance[30] = after->covariance[30] + (p_7_9 * n_2);
-            after->covariance[31] = after->covariance[31] + (p_7_10 * n_2);
-            after->covariance[32] = after->covariance[32] + (p_7_11 * n_2);
-            const double n_3 = p_3_7 * minus_per_s;
-            after->covariance[33] = after->covariance[33] + (p_3_7 * n_3);
-            after->covariance[34] = after->covariance[34] + (p_4_7 * n_3);
-            after->covariance[35] = after->covariance[35] + (p_5_7 * n_3);
-            after->covariance[36] = after->covariance[36] + (p_6_7 * n_3);
-            after->covariance[37] = n_3 * minus_r;
-            after->covariance[38] = after->covariance[38] + (p_7_8 * n_3);
-            after->covariance[39] = after->covariance[39] + (p_7_9 * n_3);
-            after->covariance[40] = after->covariance[40] + (p_7_10 * n_3);
-            after->covariance[41] = after->covariance[41] + (p_7_11 * n_3);
-            const double n_4 = p_4_7 * minus_per_s;
-            after->covariance[42] = after->covariance[42] + (p_4_7 * n_4);
-            after->covariance[43] = after->covariance[43] + (p_5_7 * n_4);
-            after->covariance[44] = after->covariance[44] + (p_6_7 * n_4);
-            after->covariance[45] = n_4 * minus_r;
-            after->covariance[46] = after->covariance[46] + (p_7_8 * n_4);
-            after->covariance[47] = after->covariance[47] + (p_7_9 * n_4);
-            after->covariance[48] = after->covariance[48] + (p_7_10 * n_4);
-            after->covariance[49] = after->covariance[49] + (p_7_11 * n_4);
-            const double n_5 = p_5_7 * minus_per_s;
-            after->covariance[50] = after->covariance[50] + (p_5_7 * n_5);
-            after->covariance[51] = after->covariance[51] + (p_6_7 * n_5);
-            after->covariance[52] = n_5 * minus_r;
-            after->covariance[53] = after->covariance[53] + (p_7_8 * n_5);
-            after->covariance[54] = after->covariance[54] + (p_7_9 * n_5);
-            after->covariance[55] = after->covariance[55] + (p_7_10 * n_5);
-            after->covariance[56] = after->covariance[56] + (p_7_11 * n_5);
-            const double n_6 = p_6_7 * minus_per_s;
-            after->covariance[57] = after->covariance[57] + (p_6_7 * n_6);
-            after->covariance[58] = n_6 * minus_r;
-            after->covariance[59] = after->covariance[59] + (p_7_8 * n_6);
-            after->covariance[60] = after->covariance[60] + (p_7_9 * n_6);
-            after->covariance[61] = after->covariance[61] + (p_7_10 * n_6);
-            after->covariance[62] = after->covariance[62] + (p_7_11 * n_6);
-            const double n_7 = p_7_7 * minus_per_s;
-            after->covariance[63] = n_7 * minus_r;
-            const double n_8 = p_7_8 * minus_per_s;
-            after->covariance[64] = n_8 * minus_r;
-            const double n_9 = p_7_9 * minus_per_s;
-            after->covariance[65] = n_9 * minus_r;
-            const double n_10 = p_7_10 * minus_per_s;
-            after->covariance[66] = n_10 * minus_r;
-            const double n_11 = p_7_11 * minus_per_s;
-            after->covariance[67] = n_11 * minus_r;
-            after->covariance[68] = after->covariance[68] + (p_7_8 * n_8);
-            after->covariance[69] = after->covariance[69] + (p_7_9 * n_8);
-            after->covariance[70] = after->covariance[70] + (p_7_10 * n_8);
-            after->covariance[71] = after->covariance[71] + (p_7_11 * n_8);
-            after->covariance[72] = after->covariance[72] + (p_7_9 * n_9);
-            after->covariance[73] = after->covariance[73] + (p_7_10 * n_9);
-            after->covariance[74] = after->covariance[74] + (p_7_11 * n_9);
-            after->covariance[75] = after->covariance[75] + (p_7_10 * n_10);
-            after->covariance[76] = after->covariance[76] + (p_7_11 * n_10);
-            after->covariance[77] = after->covariance[77] + (p_7_11 * n_11);
-            const double delta_7 = delta[7];
-            const double e = residual_7 - delta_7;
-            const double minus_e = -e;
-            delta[0] = delta[0] + (n_0 * minus_e);
-            delta[1] = delta[1] + (n_1 * minus_e);
-            delta[2] = delta[2] + (n_2 * minus_e);
-            delta[3] = delta[3] + (n_3 * minus_e);
-            delta[4] = delta[4] + (n_4 * minus_e);
-            delta[5] = delta[5] + (n_5 * minus_e);
-            delta[6] = delta[6] + (n_6 * minus_e);
-            delta[7] = delta_7 + (n_7 * minus_e);
-            delta[8] = delta[8] + (n_8 * minus_e);
-            delta[9] = delta[9] + (n_9 * minus_e);
-            delta[10] = delta[10] + (n_10 * minus_e);
-            delta[11] = delta[11] + (n_11 * minus_e);
-            nis[0] = nis[0] + (e * (per_s * e));
-            row_variance[7] = s;
-        }
-
-        /* row 8: d = d + K e, P = P - K s K'; the measured row as r K */
-        {
-            const double p_0_8 = after->covariance[8];
-            const double r_8 = params->variance_pose[8];
-            const double p_8_8 = after->covariance[68];
-            const double s = r_8 + p_8_8;
-            const double per_s = 1.0 / ((s >= 1.0e-20) ? s : 1.0);
-            const double minus_per_s = -per_s;
-            const double n_0 = p_0_8 * minus_per_s;
-            after->covariance[0] = after->covariance[0] + (p_0_8 * n_0);
-            const double p_1_8 = after->covariance[19];
-            after->covariance[1] = after->covariance[1] + (p_1_8 * n_0);
-            const double p_2_8 = after->covariance[29];
-            after->covariance[2] = after->covariance[2] + (p_2_8 * n_0);
-            const double p_3_8 = after->covariance[38];
-            after->covariance[3] = after->covariance[3] + (p_3_8 * n_0);
-            const double p_4_8 = after->covariance[46];
-            after->covariance[4] = after->covariance[4] + (p_4_8 * n_0);
-            const double p_5_8 = after->covariance[53];
-            after->covariance[5] = after->covariance[5] + (p_5_8 * n_0);
-            const double p_6_8 = after->covariance[59];
-            after->covariance[6] = after->covariance[6] + (p_6_8 * n_0);
-            const double p_7_8 = after->covariance[64];
-            after->covariance[7] = after->covariance[7] + (p_7_8 * n_0);
-            const double minus_r = -r_8;
-            after->covariance[8] = n_0 * minus_r;
-            const double p_8_9 = after->covariance[69];
-            after->covariance[9] = after->covariance[9] + (p_8_9 * n_0);
-            const double p_8_10 = after->covariance[70];
-            after->covariance[10] = after->covariance[10] + (p_8_10 * n_0);
-            const double p_8_11 = after->covariance[71];
-            after->covariance[11] = after->covariance[11] + (p_8_11 * n_0);
-            const double n_1 = p_1_8 * minus_per_s;
-            after->covariance[12] = after->covariance[12] + (p_1_8 * n_1);
-            after->covariance[13] = after->covariance[13] + (p_2_8 * n_1);
-            after->covariance[14] = after->covariance[14] + (p_3_8 * n_1);
-            after->covariance[15] = after->covariance[15] + (p_4_8 * n_1);
-            after->covariance[16] = after->covariance[16] + (p_5_8 * n_1);
-            after->covariance[17] = after->covariance[17] + (p_6_8 * n_1);
-            after->covariance[18] = after->covariance[18] + (p_7_8 * n_1);
-            after->covariance[19] = n_1 * minus_r;
-            after->covariance[20] = after->covariance[20] + (p_8_9 * n_1);
-            after->covariance[21] = after->covariance[21] + (p_8_10 * n_1);
-            after->covariance[22] = after->covariance[22] + (p_8_11 * n_1);
-            const double n_2 = p_2_8 * minus_per_s;
-            after->covariance[23] = after->covariance[23] + (p_2_8 * n_2);
-            after->covariance[24] = after->covariance[24] + (p_3_8 * n_2);
-            after->covariance[25] = after->covariance[25] + (p_4_8 * n_2);
-            after->covariance[26] = after->covariance[26] + (p_5_8 * n_2);
-            after->covariance[27] = after->covariance[27] + (p_6_8 * n_2);
-            after->covariance[28] = after->covariance[28] + (p_7_8 * n_2);
-            after->covariance[29] = n_2 * minus_r;
-            after->covariance[30] = after->covariance[30] + (p_8_9 * n_2);
-            after->covariance[31] = after->covariance[31] + (p_8_10 * n_2);
-            after->covariance[32] = after->covariance[32] + (p_8_11 * n_2);
-            const double n_3 = p_3_8 * minus_per_s;
-            after->covariance[33] = after->covariance[33] + (p_3_8 * n_3);
-            after->covariance[34] = after->covariance[34] + (p_4_8 * n_3);
-            after->covariance[35] = after->covariance[35] + (p_5_8 * n_3);
-            after->covariance[36] = after->covariance[36] + (p_6_8 * n_3);
-            after->covariance[37] = after->covariance[37] + (p_7_8 * n_3);
-            after->covariance[38] = n_3 * minus_r;
-            after->covariance[39] = after->covariance[39] + (p_8_9 * n_3);
-            after->covariance[40] = after->covariance[40] + (p_8_10 * n_3);
-            after->covariance[41] = after->covariance[41] + (p_8_11 * n_3);
-            const double n_4 = p_4_8 * minus_per_s;
-            after->covariance[42] = after->covariance[42] + (p_4_8 * n_4);
-            after->covariance[43] = after->covariance[43] + (p_5_8 * n_4);
-            after->covariance[44] = after->covariance[44] + (p_6_8 * n_4);
-            after->covariance[45] = after->covariance[45] + (p_7_8 * n_4);
-            after->covariance[46] = n_4 * minus_r;
-            after->covariance[47] = after->covariance[47] + (p_8_9 * n_4);
-            after->covariance[48] = after->covariance[48] + (p_8_10 * n_4);
-            after->covariance[49] = after->covariance[49] + (p_8_11 * n_4);
-            const double n_5 = p_5_8 * minus_per_s;
-            after->covariance[50] = after->covariance[50] + (p_5_8 * n_5);
-            after->covariance[51] = after->covariance[51] + (p_6_8 * n_5);
-            after->covariance[52] = after->covariance[52] + (p_7_8 * n_5);
-            after->covariance[53] = n_5 * minus_r;
-            after->covariance[54] = after->covariance[54] + (p_8_9 * n_5);
-            after->covariance[55] = after->covariance[55] + (p_8_10 * n_5);
-            after->covariance[56] = after->covariance[56] + (p_8_11 * n_5);
-            const double n_6 = p_6_8 * minus_per_s;
-            after->covariance[57] = after->covariance[57] + (p_6_8 * n_6);
-            after->covariance[58] = after->covariance[58] + (p_7_8 * n_6);
-            after->covariance[59] = n_6 * minus_r;
-            after->covariance[60] = after->covariance[60] + (p_8_9 * n_6);
-            after->covariance[61] = after->covariance[61] + (p_8_10 * n_6);
-            after->covariance[62] = after->covariance[62] + (p_8_11 * n_6);
-            const double n_7 = p_7_8 * minus_per_s;
-            after->covariance[63] = after->covariance[63] + (p_7_8 * n_7);
-            after->covariance[64] = n_7 * minus_r;
-            after->covariance[65] = after->covariance[65] + (p_8_9 * n_7);
-            after->covariance[66] = after->covariance[66] + (p_8_10 * n_7);
-            after->covariance[67] = after->covariance[67] + (p_8_11 * n_7);
-            const double n_8 = p_8_8 * minus_per_s;
-            after->covariance[68] = n_8 * minus_r;
-            const double n_9 = p_8_9 * minus_per_s;
-            after->covariance[69] = n_9 * minus_r;
-            const double n_10 = p_8_10 * minus_per_s;
-            after->covariance[70] = n_10 * minus_r;
-            const double n_11 = p_8_11 * minus_per_s;
-            after->covariance[71] = n_11 * minus_r;
-            after->covariance[72] = after->covariance[72] + (p_8_9 * n_9);
-            after->covariance[73] = after->covariance[73] + (p_8_10 * n_9);
-            after->covariance[74] = after->covariance[74] + (p_8_11 * n_9);
-            after->covariance[75] = after->covariance[75] + (p_8_10 * n_10);
-            after->covariance[76] = after->covariance[76] + (p_8_11 * n_10);
-            after->covariance[77] = after->covariance[77] + (p_8_11 * n_11);
-            const double delta_8 = delta[8];
-            const double e = residual_8 - delta_8;
-            const double minus_e = -e;
-            delta[0] = delta[0] + (n_0 * minus_e);
-            delta[1] = delta[1] + (n_1 * minus_e);
-            delta[2] = delta[2] + (n_2 * minus_e);
-            delta[3] = delta[3] + (n_3 * minus_e);
-            delta[4] = delta[4] + (n_4 * minus_e);
-            delta[5] = delta[5] + (n_5 * minus_e);
-            delta[6] = delta[6] + (n_6 * minus_e);
-            delta[7] = delta[7] + (n_7 * minus_e);
-            delta[8] = delta_8 + (n_8 * minus_e);
-            delta[9] = delta[9] + (n_9 * minus_e);
-            delta[10] = delta[10] + (n_10 * minus_e);
-            delta[11] = delta[11] + (n_11 * minus_e);
-            nis[0] = nis[0] + (e * (per_s * e));
-            row_variance[8] = s;
-        }
-
-        /* row 9: d = d + K e, P = P - K s K'; the measured row as r K */
-        {
-            const double p_0_9 = after->covariance[9];
-            const double r_9 = params->variance_pose[9];
-            const double p_9_9 = after->covariance[72];
-            const double s = r_9 + p_9_9;
-            const double per_s = 1.0 / ((s >= 1.0e-20) ? s : 1.0);
-            const double minus_per_s = -per_s;
-            const double n_0 = p_0_9 * minus_per_s;
-            after->covariance[0] = after->covariance[0] + (p_0_9 * n_0);
-            const double p_1_9 = after->covariance[20];
-            after->covariance[1] = after->covariance[1] + (p_1_9 * n_0);
-            const double p_2_9 = after->covariance[30];
-            after->covariance[2] = after->covariance[2] + (p_2_9 * n_0);
-            const double p_3_9 = after->covariance[39];
-            after->covariance[3] = after->covariance[3] + (p_3_9 * n_0);
-            const double p_4_9 = after->covariance[47];
-            after->covariance[4] = after->covariance[4] + (p_4_9 * n_0);
-            const double p_5_9 = after->covariance[54];
-            after->covariance[5] = after->covariance[5] + (p_5_9 * n_0);
-            const double p_6_9 = after->covariance[60];
-            after->covariance[6] = after->covariance[6] + (p_6_9 * n_0);
-            const double p_7_9 = after->covariance[65];
-            after->covariance[7] = after->covariance[7] + (p_7_9 * n_0);
-            const double p_8_9 = after->covariance[69];
-            after->covariance[8] = after->covariance[8] + (p_8_9 * n_0);
-            const double minus_r = -r_9;
-            after->covariance[9] = n_0 * minus_r;
-            const double p_9_10 = after->covariance[73];
-            after->covariance[10] = after->covariance[10] + (p_9_10 * n_0);
-            const double p_9_11 = after->covariance[74];
-            after->covariance[11] = after->covariance[11] + (p_9_11 * n_0);
-            const double n_1 = p_1_9 * minus_per_s;
-            after->covariance[12] = after->covariance[12] + (p_1_9 * n_1);
-            after->covariance[13] = after->covariance[13] + (p_2_9 * n_1);
-            after->covariance[14] = after->covariance[14] + (p_3_9 * n_1);
-            after->covariance[15] = after->covariance[15] + (p_4_9 * n_1);
-            after->covariance[16] = after->covariance[16] + (p_5_9 * n_1);
-            after->covariance[17] = after->covariance[17] + (p_6_9 * n_1);
-            after->covariance[18] = after->covariance[18] + (p_7_9 * n_1);
-            after->covariance[19] = after->covariance[19] + (p_8_9 * n_1);
-            after->covariance[20] = n_1 * minus_r;
-            after->covariance[21] = after->covariance[21] + (p_9_10 * n_1);
-            after->covariance[22] = after->covariance[22] + (p_9_11 * n_1);
-            const double n_2 = p_2_9 * minus_per_s;
-            after->covariance[23] = after->covariance[23] + (p_2_9 * n_2);
-            after->covariance[24] = after->covariance[24] + (p_3_9 * n_2);
-            after->covariance[25] = after->covariance[25] + (p_4_9 * n_2);
-            after->covariance[26] = after->covariance[26] + (p_5_9 * n_2);
-            after->covariance[27] = after->covariance[27] + (p_6_9 * n_2);
-            after->covariance[28] = after->covariance[28] + (p_7_9 * n_2);
-            after->covariance[29] = after->covariance[29] + (p_8_9 * n_2);
-            after->covariance[30] = n_2 * minus_r;
-            after->covariance[31] = after->covariance[31] + (p_9_10 * n_2);
-            after->covariance[32] = after->covariance[32] + (p_9_11 * n_2);
-            const double n_3 = p_3_9 * minus_per_s;
-            after->covariance[33] = after->covariance[33] + (p_3_9 * n_3);
-            after->covariance[34] = after->covariance[34] + (p_4_9 * n_3);
-            after->covariance[35] = after->covariance[35] + (p_5_9 * n_3);
-            after->covariance[36] = after->covariance[36] + (p_6_9 * n_3);
-            after->covariance[37] = after->covariance[37] + (p_7_9 * n_3);
-            after->covariance[38] = after->covariance[38] + (p_8_9 * n_3);
-            after->covariance[39] = n_3 * minus_r;
-            after->covariance[40] = after->covariance[40] + (p_9_10 * n_3);
-            after->covariance[41] = after->covariance[41] + (p_9_11 * n_3);
-            const double n_4 = p_4_9 * minus_per_s;
-            after->covariance[42] = after->covariance[42] + (p_4_9 * n_4);
-            after->covariance[43] = after->covariance[43] + (p_5_9 * n_4);
-            after->covariance[44] = after->covariance[44] + (p_6_9 * n_4);
-            after->covariance[45] = after->covariance[45] + (p_7_9 * n_4);
-            after->covariance[46] = after->covariance[46] + (p_8_9 * n_4);
-            after->covariance[47] = n_4 * minus_r;
-            after->covariance[48] = after->covariance[48] + (p_9_10 * n_4);
-            after->covariance[49] = after->covariance[49] + (p_9_11 * n_4);
-            const double n_5 = p_5_9 * minus_per_s;
-            after->covariance[50] = after->covariance[50] + (p_5_9 * n_5);
-            after->covariance[51] = after->covariance[51] + (p_6_9 * n_5);
-            after->covariance[52] = after->covariance[52] + (p_7_9 * n_5);
-            after->covariance[53] = after->covariance[53] + (p_8_9 * n_5);
-            after->covariance[54] = n_5 * minus_r;
-            after->covariance[55] = after->covariance[55] + (p_9_10 * n_5);
-            after->covariance[56] = after->covariance[56] + (p_9_11 * n_5);
-            const double n_6 = p_6_9 * minus_per_s;
-            after->covariance[57] = after->covariance[57] + (p_6_9 * n_6);
-            after->covariance[58] = after->covariance[58] + (p_7_9 * n_6);
-            after->covariance[59] = after->covariance[59] + (p_8_9 * n_6);
-            after->covariance[60] = n_6 * minus_r;
-            after->covariance[61] = after->covariance[61] + (p_9_10 * n_6);
-            after->covariance[62] = after->covariance[62] + (p_9_11 * n_6);
-            const double n_7 = p_7_9 * minus_per_s;
-            after->covariance[63] = after->covariance[63] + (p_7_9 * n_7);
-            after->covariance[64] = after->covariance[64] + (p_8_9 * n_7);
-            after->covariance[65] = n_7 * minus_r;
-            after->covariance[66] = after->covariance[66] + (p_9_10 * n_7);
-            after->covariance[67] = after->covariance[67] + (p_9_11 * n_7);
-            const double n_8 = p_8_9 * minus_per_s;
-            after->covariance[68] = after->covariance[68] + (p_8_9 * n_8);
-            after->covariance[69] = n_8 * minus_r;
-            after->covariance[70] = after->covariance[70] + (p_9_10 * n_8);
-            after->covariance[71] = after->covariance[71] + (p_9_11 * n_8);
-            const double n_9 = p_9_9 * minus_per_s;
-            after->covariance[72] = n_9 * minus_r;
-            const double n_10 = p_9_10 * minus_per_s;
-            after->covariance[73] = n_10 * minus_r;
-            const double n_11 = p_9_11 * minus_per_s;
-            after->covariance[74] = n_11 * minus_r;
-            after->covariance[75] = after->covariance[75] + (p_9_10 * n_10);
-            after->covariance[76] = after->covariance[76] + (p_9_11 * n_10);
-            after->covariance[77] = after->covariance[77] + (p_9_11 * n_11);
-            const double delta_9 = delta[9];
-            const double e = residual_9 - delta_9;
-            const double minus_e = -e;
-            delta[0] = delta[0] + (n_0 * minus_e);
-            delta[1] = delta[1] + (n_1 * minus_e);
-            delta[2] = delta[2] + (n_2 * minus_e);
-            delta[3] = delta[3] + (n_3 * minus_e);
-            delta[4] = delta[4] + (n_4 * minus_e);
-            delta[5] = delta[5] + (n_5 * minus_e);
-            delta[6] = delta[6] + (n_6 * minus_e);
-            delta[7] = delta[7] + (n_7 * minus_e);
-            delta[8] = delta[8] + (n_8 * minus_e);
-            delta[9] = delta_9 + (n_9 * minus_e);
-            delta[10] = delta[10] + (n_10 * minus_e);
-            delta[11] = delta[11] + (n_11 * minus_e);
-            nis[0] = nis[0] + (e * (per_s * e));
-            row_variance[9] = s;
-        }
-
-        /* row 10: d = d + K e, P = P - K s K'; the measured row as r K */
-        {
-            const double p_0_10 = after->covariance[10];
-            const double r_10 = params->variance_pose[10];
-            const double p_10_10 = after->covariance[75];
-            const double s = r_10 + p_10_10;
-            const double per_s = 1.0 / ((s >= 1.0e-20) ? s : 1.0);
-            const double minus_per_s = -per_s;
-            const double n_0 = p_0_10 * minus_per_s;
-            after->covariance[0] = after->covariance[0] + (p_0_10 * n_0);
-            const double p_1_10 = after->covariance[21];
-            after->covariance[1] = after->covariance[1] + (p_1_10 * n_0);
-            const double p_2_10 = after->covariance[31];
-            after->covariance[2] = after->covariance[2] + (p_2_10 * n_0);
-            const double p_3_10 = after->covariance[40];
-            after->covariance[3] = after->covariance[3] + (p_3_10 * n_0);
-            const double p_4_10 = after->covariance[48];
-            after->covariance[4] = after->covariance[4] + (p_4_10 * n_0);
-            const double p_5_10 = after->covariance[55];
-            after->covariance[5] = after->covariance[5] + (p_5_10 * n_0);
-            const double p_6_10 = after->covariance[61];
-            after->covariance[6] = after->covariance[6] + (p_6_10 * n_0);
-            const double p_7_10 = after->covariance[66];
-            after->covariance[7] = after->covariance[7] + (p_7_10 * n_0);
-            const double p_8_10 = after->covariance[70];
-            after->covariance[8] = after->covariance[8] + (p_8_10 * n_0);
-            const double p_9_10 = after->covariance[73];
-            after->covariance[9] = after->covariance[9] + (p_9_10 * n_0);
-            const double minus_r = -r_10;
-            after->covariance[10] = n_0 * minus_r;
-            const double p_10_11 = after->covariance[76];
-            after->covariance[11] = after->covariance[11] + (p_10_11 * n_0);
-            const double n_1 = p_1_10 * minus_per_s;
-            after->covariance[12] = after->covariance[12] + (p_1_10 * n_1);
-            after->covariance[13] = after->covariance[13] + (p_2_10 * n_1);
-            after->covariance[14] = after->covariance[14] + (p_3_10 * n_1);
-            after->covariance[15] = after->covariance[15] + (p_4_10 * n_1);
-            after->covariance[16] = after->covariance[16] + (p_5_10 * n_1);
-            after->covariance[17] = after->covariance[17] + (p_6_10 * n_1);
-            after->covariance[18] = after->covariance[18] + (p_7_10 * n_1);
-            after->covariance[19] = after->covariance[19] + (p_8_10 * n_1);
-            after->covariance[20] = after->covariance[20] + (p_9_10 * n_1);
-            after->covariance[21] = n_1 * minus_r;
-            after->covariance[22] = after->covariance[22] + (p_10_11 * n_1);
-            const double n_2 = p_2_10 * minus_per_s;
-            after->covariance[23] = after->covariance[23] + (p_2_10 * n_2);
-            after->covariance[24] = after->covariance[24] + (p_3_10 * n_2);
-            after->covariance[25] = after->covariance[25] + (p_4_10 * n_2);
-            after->covariance[26] = after->covariance[26] + (p_5_10 * n_2);
-            after->covariance[27] = after->covariance[27] + (p_6_10 * n_2);
-            after->covariance[28] = after->covariance[28] + (p_7_10 * n_2);
-            after->covariance[29] = after->covariance[29] + (p_8_10 * n_2);
-            after->covariance[30] = after->covariance[30] + (p_9_10 * n_2);
-            after->covariance[31] = n_2 * minus_r;
-            after->covariance[32] = after->covariance[32] + (p_10_11 * n_2);
-            const double n_3 = p_3_10 * minus_per_s;
-            after->covariance[33] = after->covariance[33] + (p_3_10 * n_3);
-            after->covariance[34] = after->covariance[34] + (p_4_10 * n_3);
-            after->covariance[35] = after->covariance[35] + (p_5_10 * n_3);
-            after->covariance[36] = after->covariance[36] + (p_6_10 * n_3);
-            after->covariance[37] = after->covariance[37] + (p_7_10 * n_3);
-            after->covariance[38] = after->covariance[38] + (p_8_10 * n_3);
-            after->covariance[39] = after->covariance[39] + (p_9_10 * n_3);
-            after->covariance[40] = n_3 * minus_r;
-            after->covariance[41] = after->covariance[41] + (p_10_11 * n_3);
-            const double n_4 = p_4_10 * minus_per_s;
-            after->covariance[42] = after->covariance[42] + (p_4_10 * n_4);
-            after->covariance[43] = after->covariance[43] + (p_5_10 * n_4);
-            after->covariance[44] = after->covariance[44] + (p_6_10 * n_4);
-            after->covariance[45] = after->covariance[45] + (p_7_10 * n_4);
-            after->covariance[46] = after->covariance[46] + (p_8_10 * n_4);
-            after->covariance[47] = after->covariance[47] + (p_9_10 * n_4);
-            after->covariance[48] = n_4 * minus_r;
-            after->covariance[49] = after->covariance[49] + (p_10_11 * n_4);
-            const double n_5 = p_5_10 * minus_per_s;
-            after->covariance[50] = after->covariance[50] + (p_5_10 * n_5);
-            after->covariance[51] = after->covariance[51] + (p_6_10 * n_5);
-            after->covariance[52] = after->covariance[52] + (p_7_10 * n_5);
-            after->covariance[53] = after->covariance[53] + (p_8_10 * n_5);
-            after->covariance[54] = after->covariance[54] + (p_9_10 * n_5);
-            after->covariance[55] = n_5 * minus_r;
-            after->covariance[56] = after->covariance[56] + (p_10_11 * n_5);
-            const double n_6 = p_6_10 * minus_per_s;
-            after->covariance[57] = after->covariance[57] + (p_6_10 * n_6);
-            after->covariance[58] = after->covariance[58] + (p_7_10 * n_6);
-            after->covariance[59] = after->covariance[59] + (p_8_10 * n_6);
-            after->covariance[60] = after->covariance[60] + (p_9_10 * n_6);
-            after->covariance[61] = n_6 * minus_r;
-            after->covariance[62] = after->covariance[62] + (p_10_11 * n_6);
-            const double n_7 = p_7_10 * minus_per_s;
-            after->covariance[63] = after->covariance[63] + (p_7_10 * n_7);
-            after->covariance[64] = after->covariance[64] + (p_8_10 * n_7);
-            after->covariance[65] = after->covariance[65] + (p_9_10 * n_7);
-            after->covariance[66] = n_7 * minus_r;
-            after->covariance[67] = after->covariance[67] + (p_10_11 * n_7);
-            const double n_8 = p_8_10 * minus_per_s;
-            after->covariance[68] = after->covariance[68] + (p_8_10 * n_8);
-            after->covariance[69] = after->covariance[69] + (p_9_10 * n_8);
-            after->covariance[70] = n_8 * minus_r;
-            after->covariance[71] = after->covariance[71] + (p_10_11 * n_8);
-            const double n_9 = p_9_10 * minus_per_s;
-            after->covariance[72] = after->covariance[72] + (p_9_10 * n_9);
-            after->covariance[73] = n_9 * minus_r;
-            after->covariance[74] = after->covariance[74] + (p_10_11 * n_9);
-            const double n_10 = p_10_10 * minus_per_s;
-            after->covariance[75] = n_10 * minus_r;
-            const double n_11 = p_10_11 * minus_per_s;
-            after->covariance[76] = n_11 * minus_r;
-            after->covariance[77] = after->covariance[77] + (p_10_11 * n_11);
-            const double delta_10 = delta[10];
-            const double e = residual_10 - delta_10;
-            const double minus_e = -e;
-            delta[0] = delta[0] + (n_0 * minus_e);
-            delta[1] = delta[1] + (n_1 * minus_e);
-            delta[2] = delta[2] + (n_2 * minus_e);
-            delta[3] = delta[3] + (n_3 * minus_e);
-            delta[4] = delta[4] + (n_4 * minus_e);
-            delta[5] = delta[5] + (n_5 * minus_e);
-            delta[6] = delta[6] + (n_6 * minus_e);
-            delta[7] = delta[7] + (n_7 * minus_e);
-            delta[8] = delta[8] + (n_8 * minus_e);
-            delta[9] = delta[9] + (n_9 * minus_e);
-            delta[10] = delta_10 + (n_10 * minus_e);
-            delta[11] = delta[11] + (n_11 * minus_e);
-            nis[0] = nis[0] + (e * (per_s * e));
-            row_variance[10] = s;
-        }
-
-        /* row 11: d = d + K e, P = P - K s K'; the measured row as r K */
-        {
-            const double p_0_11 = after->covariance[11];
-            const double r_11 = params->variance_pose[11];
-            const double p_11_11 = after->covariance[77];
-            const double s = r_11 + p_11_11;
-            const double per_s = 1.0 / ((s >= 1.0e-20) ? s : 1.0);
-            const double minus_per_s = -per_s;
-            const double n_0 = p_0_11 * minus_per_s;
-            after->covariance[0] = after->covariance[0] + (p_0_11 * n_0);
-            const double p_1_11 = after->covariance[22];
-            after->covariance[1] = after->covariance[1] + (p_1_11 * n_0);
-            const double p_2_11 = after->covariance[32];
-            after->covariance[2] = after->covariance[2] + (p_2_11 * n_0);
-            const double p_3_11 = after->covariance[41];
-            after->covariance[3] = after->covariance[3] + (p_3_11 * n_0);
-            const double p_4_11 = after->covariance[49];
-            after->covariance[4] = after->covariance[4] + (p_4_11 * n_0);
-            const double p_5_11 = after->covariance[56];
-            after->covariance[5] = after->covariance[5] + (p_5_11 * n_0);
-            const double p_6_11 = after->covariance[62];
-            after->covariance[6] = after->covariance[6] + (p_6_11 * n_0);
-            const double p_7_11 = after->covariance[67];
-            after->covariance[7] = after->covariance[7] + (p_7_11 * n_0);
-            const double p_8_11 = after->covariance[71];
-            after->covariance[8] = after->covariance[8] + (p_8_11 * n_0);
-            const double p_9_11 = after->covariance[74];
-            after->covariance[9] = after->covariance[9] + (p_9_11 * n_0);
-            const double p_10_11 = after->covariance[76];
-            after->covariance[10] = after->covariance[10] + (p_10_11 * n_0);
-            const double minus_r = -r_11;
-            after->covariance[11] = n_0 * minus_r;
-            const double n_1 = p_1_11 * minus_per_s;
-            after->covariance[12] = after->covariance[12] + (p_1_11 * n_1);
-            after->covariance[13] = after->covariance[13] + (p_2_11 * n_1);
-            after->covariance[14] = after->covariance[14] + (p_3_11 * n_1);
-            after->covariance[15] = after->covariance[15] + (p_4_11 * n_1);
-            after->covariance[16] = after->covariance[16] + (p_5_11 * n_1);
-            after->covariance[17] = after->covariance[17] + (p_6_11 * n_1);
-            after->covariance[18] = after->covariance[18] + (p_7_11 * n_1);
-            after->covariance[19] = after->covariance[19] + (p_8_11 * n_1);
-            after->covariance[20] = after->covariance[20] + (p_9_11 * n_1);
-            after->covariance[21] = after->covariance[21] + (p_10_11 * n_1);
-            after->covariance[22] = n_1 * minus_r;
-            const double n_2 = p_2_11 * minus_per_s;
-            after->covariance[23] = after->covariance[23] + (p_2_11 * n_2);
-            after->covariance[24] = after->covariance[24] + (p_3_11 * n_2);
-            after->covariance[25] = after->covariance[25] + (p_4_11 * n_2);
-            after->covariance[26] = after->covariance[26] + (p_5_11 * n_2);
-            after->covariance[27] = after->covariance[27] + (p_6_11 * n_2);
-            after->covariance[28] = after->covariance[28] + (p_7_11 * n_2);
-            after->covariance[29] = after->covariance[29] + (p_8_11 * n_2);
-            after->covariance[30] = after->covariance[30] + (p_9_11 * n_2);
-            after->covariance[31] = after->covariance[31] + (p_10_11 * n_2);
-            after->covariance[32] = n_2 * minus_r;
-            const double n_3 = p_3_11 * minus_per_s;
-            after->covariance[33] = after->covariance[33] + (p_3_11 * n_3);
-            after->covariance[34] = after->covariance[34] + (p_4_11 * n_3);
-            after->covariance[35] = after->covariance[35] + (p_5_11 * n_3);
-            after->covariance[36] = after->covariance[36] + (p_6_11 * n_3);
-            after->covariance[37] = after->covariance[37] + (p_7_11 * n_3);
-            after->covariance[38] = after->covariance[38] + (p_8_11 * n_3);
-            after->covariance[39] = after->covariance[39] + (p_9_11 * n_3);
-            after->covariance[40] = after->covariance[40] + (p_10_11 * n_3);
-            after->covariance[41] = n_3 * minus_r;
-            const double n_4 = p_4_11 * minus_per_s;
-            after->covariance[42] = after->covariance[42] + (p_4_11 * n_4);
-            after->covariance[43] = after->covariance[43] + (p_5_11 * n_4);
-            after->covariance[44] = after->covariance[44] + (p_6_11 * n_4);
-            after->covariance[45] = after->covariance[45] + (p_7_11 * n_4);
-            after->covariance[46] = after->covariance[46] + (p_8_11 * n_4);
-            after->covariance[47] = after->covariance[47] + (p_9_11 * n_4);
-            after->covariance[48] = after->covariance[48] + (p_10_11 * n_4);
-            after->covariance[49] = n_4 * minus_r;
-            const double n_5 = p_5_11 * minus_per_s;
-            after->covariance[50] = after->covariance[50] + (p_5_11 * n_5);
-            after->covariance[51] = after->covariance[51] + (p_6_11 * n_5);
-            after->covariance[52] = after->covariance[52] + (p_7_11 * n_5);
-            after->covariance[53] = after->covariance[53] + (p_8_11 * n_5);
-            after->covariance[54] = after->covariance[54] + (p_9_11 * n_5);
-            after->covariance[55] = after->covariance[55] + (p_10_11 * n_5);
-            after->covariance[56] = n_5 * minus_r;
-            const double n_6 = p_6_11 * minus_per_s;
-            after->covariance[57] = after->covariance[57] + (p_6_11 * n_6);
-            after->covariance[58] = after->covariance[58] + (p_7_11 * n_6);
-            after->covariance[59] = after->covariance[59] + (p_8_11 * n_6);
-            after->covariance[60] = after->covariance[60] + (p_9_11 * n_6);
-            after->covariance[61] = after->covariance[61] + (p_10_11 * n_6);
-            after->covariance[62] = n_6 * minus_r;
-            const double n_7 = p_7_11 * minus_per_s;
-            after->covariance[63] = after->covariance[63] + (p_7_11 * n_7);
-            after->covariance[64] = after->covariance[64] + (p_8_11 * n_7);
-            after->covariance[65] = after->covariance[65] + (p_9_11 * n_7);
-            after->covariance[66] = after->covariance[66] + (p_10_11 * n_7);
-            after->covariance[67] = n_7 * minus_r;
-            const double n_8 = p_8_11 * minus_per_s;
-            after->covariance[68] = after->covariance[68] + (p_8_11 * n_8);
-            after->covariance[69] = after->covariance[69] + (p_9_11 * n_8);
-            after->covariance[70] = after->covariance[70] + (p_10_11 * n_8);
-            after->covariance[71] = n_8 * minus_r;
-            const double n_9 = p_9_11 * minus_per_s;
-            after->covariance[72] = after->covariance[72] + (p_9_11 * n_9);
-            after->covariance[73] = after->covariance[73] + (p_10_11 * n_9);
-            after->covariance[74] = n_9 * minus_r;
-            const double n_10 = p_10_11 * minus_per_s;
-            after->covariance[75] = after->covariance[75] + (p_10_11 * n_10);
-            after->covariance[76] = n_10 * minus_r;
-            const double n_11 = p_11_11 * minus_per_s;
-            after->covariance[77] = n_11 * minus_r;
-            const double delta_11 = delta[11];
-            const double e = residual_11 - delta_11;
-            const double minus_e = -e;
-            delta[0] = delta[0] + (n_0 * minus_e);
-            delta[1] = delta[1] + (n_1 * minus_e);
-            delta[2] = delta[2] + (n_2 * minus_e);
-            delta[3] = delta[3] + (n_3 * minus_e);
-            delta[4] = delta[4] + (n_4 * minus_e);
-            delta[5] = delta[5] + (n_5 * minus_e);
-            delta[6] = delta[6] + (n_6 * minus_e);
-            delta[7] = delta[7] + (n_7 * minus_e);
-            delta[8] = delta[8] + (n_8 * minus_e);
-            delta[9] = delta[9] + (n_9 * minus_e);
-            delta[10] = delta[10] + (n_10 * minus_e);
-            delta[11] = delta_11 + (n_11 * minus_e);
-            nis[0] = nis[0] + (e * (per_s * e));
-            row_variance[11] = s;
-        }
-
-        if (!((row_variance[0] >= 1.0e-20) && (row_variance[1] >= 1.0e-20) && (row_variance[2] >= 1.0e-20)
-              && (row_variance[3] >= 1.0e-20) && (row_variance[4] >= 1.0e-20) && (row_variance[5] >= 1.0e-20)
-              && (row_variance[6] >= 1.0e-20) && (row_variance[7] >= 1.0e-20) && (row_variance[8] >= 1.0e-20)
-              && (row_variance[9] >= 1.0e-20) && (row_variance[10] >= 1.0e-20) && (row_variance[11] >= 1.0e-20)))
+        if (!((work.row_variance[0] >= 1.0e-20) && (work.row_variance[1] >= 1.0e-20)
+              && (work.row_variance[2] >= 1.0e-20) && (work.row_variance[3] >= 1.0e-20)
+              && (work.row_variance[4] >= 1.0e-20) && (work.row_variance[5] >= 1.0e-20)
+              && (work.row_variance[6] >= 1.0e-20) && (work.row_variance[7] >= 1.0e-20)
+              && (work.row_variance[8] >= 1.0e-20) && (work.row_variance[9] >= 1.0e-20)
+              && (work.row_variance[10] >= 1.0e-20) && (work.row_variance[11] >= 1.0e-20)))
         {
             status = QUADROTOR_KF_NOT_POSITIVE;
         }
         else
         {
-            out->nis = nis[0];
+            out->nis = work.nis;
 
             /* accepted? */
-            if ((gate <= 0.0) || (nis[0] <= gate))
+            if ((gate <= 0.0) || (work.nis <= gate))
             {
                 /* x = x + d */
-                after->x = before->x + delta[0];
-                after->vx = before->vx + delta[1];
-                after->y = before->y + delta[2];
-                after->vy = before->vy + delta[3];
-                after->z = before->z + delta[4];
-                after->vz = before->vz + delta[5];
-                after->roll = before->roll + delta[6];
-                after->roll_rate = before->roll_rate + delta[7];
-                after->pitch = before->pitch + delta[8];
-                after->pitch_rate = before->pitch_rate + delta[9];
-                after->yaw = before->yaw + delta[10];
-                after->yaw_rate = before->yaw_rate + delta[11];
+                after->x = before->x + work.delta[0];
+                after->vx = before->vx + work.delta[1];
+                after->y = before->y + work.delta[2];
+                after->vy = before->vy + work.delta[3];
+                after->z = before->z + work.delta[4];
+                after->vz = before->vz + work.delta[5];
+                after->roll = before->roll + work.delta[6];
+                after->roll_rate = before->roll_rate + work.delta[7];
+                after->pitch = before->pitch + work.delta[8];
+                after->pitch_rate = before->pitch_rate + work.delta[9];
+                after->yaw = before->yaw + work.delta[10];
+                after->yaw_rate = before->yaw_rate + work.delta[11];
                 after->rejected_pose = 0U;
 
                 /* judge, then commit */
-                if (!((after->covariance[0] >= 1.0e-20) && (after->covariance[0] <= 1.0e9)
-                      && (after->covariance[12] >= 1.0e-20) && (after->covariance[12] <= 1.0e9)
-                      && (after->covariance[23] >= 1.0e-20) && (after->covariance[23] <= 1.0e9)
-                      && (after->covariance[33] >= 1.0e-20) && (after->covariance[33] <= 1.0e9)
-                      && (after->covariance[42] >= 1.0e-20) && (after->covariance[42] <= 1.0e9)
-                      && (after->covariance[50] >= 1.0e-20) && (after->covariance[50] <= 1.0e9)
-                      && (after->covariance[57] >= 1.0e-20) && (after->covariance[57] <= 1.0e9)
-                      && (after->covariance[63] >= 1.0e-20) && (after->covariance[63] <= 1.0e9)
-                      && (after->covariance[68] >= 1.0e-20) && (after->covariance[68] <= 1.0e9)
-                      && (after->covariance[72] >= 1.0e-20) && (after->covariance[72] <= 1.0e9)
-                      && (after->covariance[75] >= 1.0e-20) && (after->covariance[75] <= 1.0e9)
-                      && (after->covariance[77] >= 1.0e-20) && (after->covariance[77] <= 1.0e9)))
+                if (!quadrotor_kf_is_bounded(after->covariance))
                 {
                     status = quadrotor_kf_hold_variances(after->covariance);
                 }
@@ -2137,40 +967,7 @@ static quadrotor_kf_status_t quadrotor_kf_update_pose_core(const quadrotor_kf_st
                           && (fabs(after->vy) <= 1000.0) && (fabs(after->z) <= 10000.0) && (fabs(after->vz) <= 1000.0)
                           && (fabs(after->roll) <= 30.0) && (fabs(after->roll_rate) <= 100.0)
                           && (fabs(after->pitch) <= 30.0) && (fabs(after->pitch_rate) <= 100.0)
-                          && (fabs(after->yaw) <= 30.0) && (fabs(after->yaw_rate) <= 100.0)
-                          && (fabs(after->covariance[1]) <= 1.0e9) && (fabs(after->covariance[2]) <= 1.0e9)
-                          && (fabs(after->covariance[3]) <= 1.0e9) && (fabs(after->covariance[4]) <= 1.0e9)
-                          && (fabs(after->covariance[5]) <= 1.0e9) && (fabs(after->covariance[6]) <= 1.0e9)
-                          && (fabs(after->covariance[7]) <= 1.0e9) && (fabs(after->covariance[8]) <= 1.0e9)
-                          && (fabs(after->covariance[9]) <= 1.0e9) && (fabs(after->covariance[10]) <= 1.0e9)
-                          && (fabs(after->covariance[11]) <= 1.0e9) && (fabs(after->covariance[13]) <= 1.0e9)
-                          && (fabs(after->covariance[14]) <= 1.0e9) && (fabs(after->covariance[15]) <= 1.0e9)
-                          && (fabs(after->covariance[16]) <= 1.0e9) && (fabs(after->covariance[17]) <= 1.0e9)
-                          && (fabs(after->covariance[18]) <= 1.0e9) && (fabs(after->covariance[19]) <= 1.0e9)
-                          && (fabs(after->covariance[20]) <= 1.0e9) && (fabs(after->covariance[21]) <= 1.0e9)
-                          && (fabs(after->covariance[22]) <= 1.0e9) && (fabs(after->covariance[24]) <= 1.0e9)
-                          && (fabs(after->covariance[25]) <= 1.0e9) && (fabs(after->covariance[26]) <= 1.0e9)
-                          && (fabs(after->covariance[27]) <= 1.0e9) && (fabs(after->covariance[28]) <= 1.0e9)
-                          && (fabs(after->covariance[29]) <= 1.0e9) && (fabs(after->covariance[30]) <= 1.0e9)
-                          && (fabs(after->covariance[31]) <= 1.0e9) && (fabs(after->covariance[32]) <= 1.0e9)
-                          && (fabs(after->covariance[34]) <= 1.0e9) && (fabs(after->covariance[35]) <= 1.0e9)
-                          && (fabs(after->covariance[36]) <= 1.0e9) && (fabs(after->covariance[37]) <= 1.0e9)
-                          && (fabs(after->covariance[38]) <= 1.0e9) && (fabs(after->covariance[39]) <= 1.0e9)
-                          && (fabs(after->covariance[40]) <= 1.0e9) && (fabs(after->covariance[41]) <= 1.0e9)
-                          && (fabs(after->covariance[43]) <= 1.0e9) && (fabs(after->covariance[44]) <= 1.0e9)
-                          && (fabs(after->covariance[45]) <= 1.0e9) && (fabs(after->covariance[46]) <= 1.0e9)
-                          && (fabs(after->covariance[47]) <= 1.0e9) && (fabs(after->covariance[48]) <= 1.0e9)
-                          && (fabs(after->covariance[49]) <= 1.0e9) && (fabs(after->covariance[51]) <= 1.0e9)
-                          && (fabs(after->covariance[52]) <= 1.0e9) && (fabs(after->covariance[53]) <= 1.0e9)
-                          && (fabs(after->covariance[54]) <= 1.0e9) && (fabs(after->covariance[55]) <= 1.0e9)
-                          && (fabs(after->covariance[56]) <= 1.0e9) && (fabs(after->covariance[58]) <= 1.0e9)
-                          && (fabs(after->covariance[59]) <= 1.0e9) && (fabs(after->covariance[60]) <= 1.0e9)
-                          && (fabs(after->covariance[61]) <= 1.0e9) && (fabs(after->covariance[62]) <= 1.0e9)
-                          && (fabs(after->covariance[64]) <= 1.0e9) && (fabs(after->covariance[65]) <= 1.0e9)
-                          && (fabs(after->covariance[66]) <= 1.0e9) && (fabs(after->covariance[67]) <= 1.0e9)
-                          && (fabs(after->covariance[69]) <= 1.0e9) && (fabs(after->covariance[70]) <= 1.0e9)
-                          && (fabs(after->covariance[71]) <= 1.0e9) && (fabs(after->covariance[73]) <= 1.0e9)
-                          && (fabs(after->covariance[74]) <= 1.0e9) && (fabs(after->covariance[76]) <= 1.0e9)))
+                          && (fabs(after->yaw) <= 30.0) && (fabs(after->yaw_rate) <= 100.0)))
                     {
                         status = QUADROTOR_KF_OVERFLOW;
                     }
@@ -2217,141 +1014,15 @@ static quadrotor_kf_status_t quadrotor_kf_inflate_core(const quadrotor_kf_state_
     else
     {
         /* P = factor P */
+        for (uint32_t i = 0U; i < 78U; i++)
         {
-            after->covariance[0] = factor * before->covariance[0];
-            after->covariance[1] = factor * before->covariance[1];
-            after->covariance[2] = factor * before->covariance[2];
-            after->covariance[3] = factor * before->covariance[3];
-            after->covariance[4] = factor * before->covariance[4];
-            after->covariance[5] = factor * before->covariance[5];
-            after->covariance[6] = factor * before->covariance[6];
-            after->covariance[7] = factor * before->covariance[7];
-            after->covariance[8] = factor * before->covariance[8];
-            after->covariance[9] = factor * before->covariance[9];
-            after->covariance[10] = factor * before->covariance[10];
-            after->covariance[11] = factor * before->covariance[11];
-            after->covariance[12] = factor * before->covariance[12];
-            after->covariance[13] = factor * before->covariance[13];
-            after->covariance[14] = factor * before->covariance[14];
-            after->covariance[15] = factor * before->covariance[15];
-            after->covariance[16] = factor * before->covariance[16];
-            after->covariance[17] = factor * before->covariance[17];
-            after->covariance[18] = factor * before->covariance[18];
-            after->covariance[19] = factor * before->covariance[19];
-            after->covariance[20] = factor * before->covariance[20];
-            after->covariance[21] = factor * before->covariance[21];
-            after->covariance[22] = factor * before->covariance[22];
-            after->covariance[23] = factor * before->covariance[23];
-            after->covariance[24] = factor * before->covariance[24];
-            after->covariance[25] = factor * before->covariance[25];
-            after->covariance[26] = factor * before->covariance[26];
-            after->covariance[27] = factor * before->covariance[27];
-            after->covariance[28] = factor * before->covariance[28];
-            after->covariance[29] = factor * before->covariance[29];
-            after->covariance[30] = factor * before->covariance[30];
-            after->covariance[31] = factor * before->covariance[31];
-            after->covariance[32] = factor * before->covariance[32];
-            after->covariance[33] = factor * before->covariance[33];
-            after->covariance[34] = factor * before->covariance[34];
-            after->covariance[35] = factor * before->covariance[35];
-            after->covariance[36] = factor * before->covariance[36];
-            after->covariance[37] = factor * before->covariance[37];
-            after->covariance[38] = factor * before->covariance[38];
-            after->covariance[39] = factor * before->covariance[39];
-            after->covariance[40] = factor * before->covariance[40];
-            after->covariance[41] = factor * before->covariance[41];
-            after->covariance[42] = factor * before->covariance[42];
-            after->covariance[43] = factor * before->covariance[43];
-            after->covariance[44] = factor * before->covariance[44];
-            after->covariance[45] = factor * before->covariance[45];
-            after->covariance[46] = factor * before->covariance[46];
-            after->covariance[47] = factor * before->covariance[47];
-            after->covariance[48] = factor * before->covariance[48];
-            after->covariance[49] = factor * before->covariance[49];
-            after->covariance[50] = factor * before->covariance[50];
-            after->covariance[51] = factor * before->covariance[51];
-            after->covariance[52] = factor * before->covariance[52];
-            after->covariance[53] = factor * before->covariance[53];
-            after->covariance[54] = factor * before->covariance[54];
-            after->covariance[55] = factor * before->covariance[55];
-            after->covariance[56] = factor * before->covariance[56];
-            after->covariance[57] = factor * before->covariance[57];
-            after->covariance[58] = factor * before->covariance[58];
-            after->covariance[59] = factor * before->covariance[59];
-            after->covariance[60] = factor * before->covariance[60];
-            after->covariance[61] = factor * before->covariance[61];
-            after->covariance[62] = factor * before->covariance[62];
-            after->covariance[63] = factor * before->covariance[63];
-            after->covariance[64] = factor * before->covariance[64];
-            after->covariance[65] = factor * before->covariance[65];
-            after->covariance[66] = factor * before->covariance[66];
-            after->covariance[67] = factor * before->covariance[67];
-            after->covariance[68] = factor * before->covariance[68];
-            after->covariance[69] = factor * before->covariance[69];
-            after->covariance[70] = factor * before->covariance[70];
-            after->covariance[71] = factor * before->covariance[71];
-            after->covariance[72] = factor * before->covariance[72];
-            after->covariance[73] = factor * before->covariance[73];
-            after->covariance[74] = factor * before->covariance[74];
-            after->covariance[75] = factor * before->covariance[75];
-            after->covariance[76] = factor * before->covariance[76];
-            after->covariance[77] = factor * before->covariance[77];
+        after->covariance[i] = factor * before->covariance[i];
         }
 
         /* judge, then commit */
-        if (!((after->covariance[0] >= 1.0e-20) && (after->covariance[0] <= 1.0e9) && (after->covariance[12] >= 1.0e-20)
-              && (after->covariance[12] <= 1.0e9) && (after->covariance[23] >= 1.0e-20)
-              && (after->covariance[23] <= 1.0e9) && (after->covariance[33] >= 1.0e-20)
-              && (after->covariance[33] <= 1.0e9) && (after->covariance[42] >= 1.0e-20)
-              && (after->covariance[42] <= 1.0e9) && (after->covariance[50] >= 1.0e-20)
-              && (after->covariance[50] <= 1.0e9) && (after->covariance[57] >= 1.0e-20)
-              && (after->covariance[57] <= 1.0e9) && (after->covariance[63] >= 1.0e-20)
-              && (after->covariance[63] <= 1.0e9) && (after->covariance[68] >= 1.0e-20)
-              && (after->covariance[68] <= 1.0e9) && (after->covariance[72] >= 1.0e-20)
-              && (after->covariance[72] <= 1.0e9) && (after->covariance[75] >= 1.0e-20)
-              && (after->covariance[75] <= 1.0e9) && (after->covariance[77] >= 1.0e-20)
-              && (after->covariance[77] <= 1.0e9)))
+        if (!quadrotor_kf_is_bounded(after->covariance))
         {
             status = quadrotor_kf_hold_variances(after->covariance);
-        }
-        if (status >= QUADROTOR_KF_OK)
-        {
-            if (!((fabs(after->covariance[1]) <= 1.0e9) && (fabs(after->covariance[2]) <= 1.0e9)
-                  && (fabs(after->covariance[3]) <= 1.0e9) && (fabs(after->covariance[4]) <= 1.0e9)
-                  && (fabs(after->covariance[5]) <= 1.0e9) && (fabs(after->covariance[6]) <= 1.0e9)
-                  && (fabs(after->covariance[7]) <= 1.0e9) && (fabs(after->covariance[8]) <= 1.0e9)
-                  && (fabs(after->covariance[9]) <= 1.0e9) && (fabs(after->covariance[10]) <= 1.0e9)
-                  && (fabs(after->covariance[11]) <= 1.0e9) && (fabs(after->covariance[13]) <= 1.0e9)
-                  && (fabs(after->covariance[14]) <= 1.0e9) && (fabs(after->covariance[15]) <= 1.0e9)
-                  && (fabs(after->covariance[16]) <= 1.0e9) && (fabs(after->covariance[17]) <= 1.0e9)
-                  && (fabs(after->covariance[18]) <= 1.0e9) && (fabs(after->covariance[19]) <= 1.0e9)
-                  && (fabs(after->covariance[20]) <= 1.0e9) && (fabs(after->covariance[21]) <= 1.0e9)
-                  && (fabs(after->covariance[22]) <= 1.0e9) && (fabs(after->covariance[24]) <= 1.0e9)
-                  && (fabs(after->covariance[25]) <= 1.0e9) && (fabs(after->covariance[26]) <= 1.0e9)
-                  && (fabs(after->covariance[27]) <= 1.0e9) && (fabs(after->covariance[28]) <= 1.0e9)
-                  && (fabs(after->covariance[29]) <= 1.0e9) && (fabs(after->covariance[30]) <= 1.0e9)
-                  && (fabs(after->covariance[31]) <= 1.0e9) && (fabs(after->covariance[32]) <= 1.0e9)
-                  && (fabs(after->covariance[34]) <= 1.0e9) && (fabs(after->covariance[35]) <= 1.0e9)
-                  && (fabs(after->covariance[36]) <= 1.0e9) && (fabs(after->covariance[37]) <= 1.0e9)
-                  && (fabs(after->covariance[38]) <= 1.0e9) && (fabs(after->covariance[39]) <= 1.0e9)
-                  && (fabs(after->covariance[40]) <= 1.0e9) && (fabs(after->covariance[41]) <= 1.0e9)
-                  && (fabs(after->covariance[43]) <= 1.0e9) && (fabs(after->covariance[44]) <= 1.0e9)
-                  && (fabs(after->covariance[45]) <= 1.0e9) && (fabs(after->covariance[46]) <= 1.0e9)
-                  && (fabs(after->covariance[47]) <= 1.0e9) && (fabs(after->covariance[48]) <= 1.0e9)
-                  && (fabs(after->covariance[49]) <= 1.0e9) && (fabs(after->covariance[51]) <= 1.0e9)
-                  && (fabs(after->covariance[52]) <= 1.0e9) && (fabs(after->covariance[53]) <= 1.0e9)
-                  && (fabs(after->covariance[54]) <= 1.0e9) && (fabs(after->covariance[55]) <= 1.0e9)
-                  && (fabs(after->covariance[56]) <= 1.0e9) && (fabs(after->covariance[58]) <= 1.0e9)
-                  && (fabs(after->covariance[59]) <= 1.0e9) && (fabs(after->covariance[60]) <= 1.0e9)
-                  && (fabs(after->covariance[61]) <= 1.0e9) && (fabs(after->covariance[62]) <= 1.0e9)
-                  && (fabs(after->covariance[64]) <= 1.0e9) && (fabs(after->covariance[65]) <= 1.0e9)
-                  && (fabs(after->covariance[66]) <= 1.0e9) && (fabs(after->covariance[67]) <= 1.0e9)
-                  && (fabs(after->covariance[69]) <= 1.0e9) && (fabs(after->covariance[70]) <= 1.0e9)
-                  && (fabs(after->covariance[71]) <= 1.0e9) && (fabs(after->covariance[73]) <= 1.0e9)
-                  && (fabs(after->covariance[74]) <= 1.0e9) && (fabs(after->covariance[76]) <= 1.0e9)))
-            {
-                status = QUADROTOR_KF_OVERFLOW;
-            }
         }
     }
     return status;
@@ -2530,7 +1201,7 @@ quadrotor_kf_status_t quadrotor_kf_inflate(quadrotor_kf_state_t *state, const qu
 
 const char *quadrotor_kf_model(void)
 {
-    return "e2e766d7";
+    return "311c7133";
 }
 
 const char *quadrotor_kf_status_text(quadrotor_kf_status_t status)
@@ -2561,7 +1232,7 @@ const char *quadrotor_kf_status_text(quadrotor_kf_status_t status)
             text = "a parameter is outside its range, or not a number";
             break;
         case QUADROTOR_KF_NOT_POSITIVE:
-            text = "a variance would not be positive";
+            text = "a variance would be negative, or of an innovation not positive";
             break;
         case QUADROTOR_KF_OVERFLOW:
             text = "the result would leave its range";

@@ -1,6 +1,6 @@
 /* quadrotor_kf: Kalman filter of the plant "quadrotor" linearised at an operating point, in double precision.
  *
- * Written by plantc 0.1.0 from model e2e766d7. Do not edit: change the model, export again.
+ * Written by plantc 0.1.0 from model 311c7133. Do not edit: change the model, export again.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  *
  *    x+ = x + 0.025 vx
@@ -56,7 +56,7 @@ typedef enum
     QUADROTOR_KF_RECOVERED = 4,       /* gated too often in a row: P inflated, reading taken without gate */
     QUADROTOR_KF_BAD_INPUT = -1,      /* an input is outside its range, or not a number */
     QUADROTOR_KF_BAD_PARAM = -2,      /* a parameter is outside its range, or not a number */
-    QUADROTOR_KF_NOT_POSITIVE = -3,   /* a variance would not be positive */
+    QUADROTOR_KF_NOT_POSITIVE = -3,   /* a variance would be negative, or of an innovation not positive */
     QUADROTOR_KF_OVERFLOW = -4        /* the result would leave its range */
 } quadrotor_kf_status_t;
 

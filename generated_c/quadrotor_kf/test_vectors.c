@@ -1,4 +1,4 @@
-/* Test vectors of quadrotor_kf with their runner. Written by plantc 0.1.0 from model e2e766d7.
+/* Test vectors of quadrotor_kf with their runner. Written by plantc 0.1.0 from model 311c7133.
  *
  * Each call starts from a stated memory; what it gives is compared with what the Python model gave, in units of the
  * natural size of each field. Build with quadrotor_kf.c; returns 0 if all agree. For hosts: it prints.

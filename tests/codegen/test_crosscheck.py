@@ -4,8 +4,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-
-from plantc import Plant, extended_kalman_filter
 from plantc.codegen import crosscheck
 from plantc.codegen.crosscheck import cross_check, make_views
 from plantc.codegen.emit import emit
@@ -14,6 +12,8 @@ from plantc.codegen.views import NativeView, ReferenceView
 from plantc.symbolic import Block, sin
 from plantc.symbolic import estimators as estimators_module
 from plantc.symbolic.kernels import Congruence, RowUpdate
+
+from plantc import Plant, extended_kalman_filter
 
 
 def small_filter():
@@ -44,10 +44,23 @@ def test_all_views_agree_in_double(block):
     check = cross_check(block, "double", steps=60)
     assert check.passed, [str(item) for item in check.failures]
     names = {result.name for result in check.results}
-    assert {"interpret = reference", "native = reference", "native = interpret", "a refused call changes nothing"} <= names
-    assert {"OK", "GATED", "BAD_INPUT", "BAD_PARAM", "SKIPPED", "RECOVERED", "CLAMPED", "NOT_POSITIVE", "OVERFLOW"} == set(
-        check.statuses
-    )
+    assert {
+        "interpret = reference",
+        "native = reference",
+        "native = interpret",
+        "a refused call changes nothing",
+    } <= names
+    assert {
+        "OK",
+        "GATED",
+        "BAD_INPUT",
+        "BAD_PARAM",
+        "SKIPPED",
+        "RECOVERED",
+        "CLAMPED",
+        "NOT_POSITIVE",
+        "OVERFLOW",
+    } == set(check.statuses)
 
 
 def test_float_agrees_with_double_within_its_bound(block):
@@ -188,4 +201,6 @@ def test_the_stream_of_the_traces_is_frozen():
     stream = crosscheck.FrozenStream(0)
     assert stream.normal() == pytest.approx(1.764052345967664, abs=0)
     again = crosscheck.FrozenStream(0)
-    assert again.normal(size=3).tolist() == pytest.approx([1.764052345967664, 0.4001572083672233, 0.9787379841057392], abs=0)
+    assert again.normal(size=3).tolist() == pytest.approx(
+        [1.764052345967664, 0.4001572083672233, 0.9787379841057392], abs=0
+    )

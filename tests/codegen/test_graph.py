@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
 from plantc.codegen.graph import Graph
 from plantc.symbolic.expressions import tape
 

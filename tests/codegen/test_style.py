@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
 from plantc.codegen.style import WIDTH, Precision, comment_lines, wrap_line
 
 

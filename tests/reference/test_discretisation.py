@@ -1,6 +1,5 @@
 """One step: the map, F, Q."""
 
-
 import numpy as np
 import pytest
 import reference_plants as plants

@@ -1,0 +1,26 @@
+"""What lies under generated_c/ is what the generator gives now, byte for byte."""
+
+from pathlib import Path
+
+import pytest
+
+from plantc.codegen.crosscheck import cross_check
+from plantc.codegen.package import MEASURED, build_files
+from plantc.regenerate import EXAMPLES
+
+FOLDER = Path(__file__).resolve().parents[2] / "generated_c"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("block", "precision"), EXAMPLES, ids=[f"{block.name}-{precision}" for block, precision in EXAMPLES])
+def test_regenerating_gives_the_same_bytes(block, precision):
+    files = build_files(block, precision, cross_check(block, precision))
+    folder = FOLDER / block.name
+    lying = {path.name for path in folder.iterdir()}
+    assert lying == set(files) | MEASURED, "run python -m plantc.regenerate"
+    for name, text in files.items():
+        assert (folder / name).read_text() == text, f"{name} differs: run python -m plantc.regenerate"
+
+
+def test_nothing_else_lies_there():
+    assert {path.name for path in FOLDER.iterdir()} == {block.name for block, _ in EXAMPLES}
