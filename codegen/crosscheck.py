@@ -283,6 +283,8 @@ def _adversarial(
                     yield probe(
                         name, native.memory(), native.inputs(name, {}), _with_element(params, signal, value, rng)
                     )
+            for whole in _indefinite(block, params):
+                yield probe(name, native.memory(), native.inputs(name, {}), whole)
             continue
         for signal in block.memory_signals_flat():
             for value in _memory_extremes(signal):
@@ -296,6 +298,9 @@ def _adversarial(
                 source = sources[int(rng.integers(len(sources)))]
                 whole = fill(params.copy(), {signal.name: np.full(signal.size, value)})
                 yield probe(name, source.memory, source.inputs, whole)
+        for whole in _indefinite(block, params):
+            source = sources[int(rng.integers(len(sources)))]
+            yield probe(name, source.memory, source.inputs, whole)
         for factor in (1.0e-12, 1.0e6, 1.0e12):
             source = sources[int(rng.integers(len(sources)))]
             yield probe(name, _scaled_arrays(source.memory, block, factor), source.inputs, params)
@@ -371,6 +376,17 @@ def _scaled_arrays(record: Record, block: Block, factor: float) -> Record:
     return fill(record.copy(), {name: fields[name] * fields[name].dtype.type(factor) for name in names})
 
 
+def _indefinite(block: Block, params: Record) -> Iterator[Record]:
+    """Yield parameters in which a packed matrix (elements of either sign beside positive ones) is indefinite."""
+    for signal in block.param_signals_flat():
+        low = np.array(signal.low)
+        if signal.kind is not Kind.REAL or signal.uniform_range is not None or not (np.any(low < 0) and np.any(low >= 0)):
+            continue
+        values = flatten(params)[signal.name].astype(float)
+        for factor in (1.5, -1.5):
+            yield fill(params.copy(), {signal.name: np.where(low < 0, factor * np.max(values[low >= 0]), values)})
+
+
 def _middle(native: View, entry: Entry) -> Record:
     values = {s.name: np.clip(np.zeros(s.size), s.low, s.high) for s in entry.inputs if s.kind is Kind.REAL}
     flags = {s.name: True for s in entry.inputs if s.kind is Kind.FLAG}
@@ -414,6 +430,10 @@ class _Lockstep:
         self.angles = {signal.name for signal in block.memory_signals_flat() if signal.angle}
         for entry in block.entries.values():
             self.angles |= {name for name, signal in _leaves(entry.outputs) if signal.angle}
+        self.status_fields = {
+            name: [field_name for field_name, signal in _leaves(entry.outputs) if signal.kind is Kind.STATUS]
+            for name, entry in block.entries.items()
+        }
         self.largest: dict[tuple[str, str, str], Any] = {}
         self.scales = None if block.scenario is None else block.scenario.scales
 
@@ -476,23 +496,33 @@ class _Lockstep:
                         ),
                     )  # fmt: skip
 
+    def _all_statuses(self, entry: str, answer: Answer) -> tuple[tuple[str, int], ...]:
+        """Return the status of a call and those its outputs report."""
+        outputs = flatten(answer.outputs)
+        told = [(name, int(outputs[name][0])) for name in self.status_fields[entry]]
+        return (("status", int(answer.status)), *told)
+
     def _statuses(
         self, name: str, probe: Probe, left: Answer, right: Answer, margin: float, witness: View | None = None
     ) -> bool:
         """Compare statuses; return whether the numbers may be compared too."""
         result = self._result(name, 0.0)
         result.calls += 1
-        if left.status == right.status:
+        ours, theirs = self._all_statuses(probe.entry, left), self._all_statuses(probe.entry, right)
+        if ours == theirs:
             return left.status >= 0
-        if margin < SWITCH_MARGIN[self.precision] or self._either_status(probe, (left.status, right.status), witness):
+        if result.mismatch is None and (
+            margin < SWITCH_MARGIN[self.precision] or self._either_status(probe, {ours, theirs}, witness)
+        ):
             result.at_switches += 1
             return False
         views = name.replace("statuses ", "").split(" = ")
+        signal, first, second = next((a[0], a[1], b[1]) for a, b in zip(ours, theirs, strict=True) if a != b)
         self._fail(
             result,
             Mismatch(
-                probe.trace, probe.step, probe.entry, "status", views[0], left.status.name, views[-1], right.status.name,
-                abs(float(left.status) - float(right.status)),
+                probe.trace, probe.step, probe.entry, signal, views[0], Status(first).name, views[-1], Status(second).name,
+                abs(first - second),
             ),
         )  # fmt: skip
         return False
@@ -513,7 +543,7 @@ class _Lockstep:
             if not self._statuses(name, probe, left, right, margin):
                 return
         else:
-            if left.status != right.status or left.status < 0:
+            if left.status < 0 or self._all_statuses(probe.entry, left) != self._all_statuses(probe.entry, right):
                 return  # statuses are compared within one precision
             result.calls += 1
         after = flatten(right.memory)
@@ -560,7 +590,8 @@ class _Lockstep:
             difference = np.where(same, 0.0, np.where(np.isnan(difference), np.inf, difference))
         worst = int(np.argmax(difference))
         result.worst = max(result.worst, float(difference[worst]))
-        if difference[worst] > limit and self._is_rounding(probe, where, name, float(difference[worst]), scales):
+        first_time = result.mismatch is None
+        if difference[worst] > limit and first_time and self._is_rounding(probe, where, name, float(difference[worst]), scales):
             result.ill_conditioned += 1
         elif difference[worst] > limit:
             left, right = check.split(" = ")
@@ -586,10 +617,11 @@ class _Lockstep:
             inputs = fill(view.inputs(probe.entry, {}), flatten(probe.inputs))
             yield view.call(probe.entry, memory, inputs, fill(view.params(), flatten(probe.params)))
 
-    def _either_status(self, probe: Probe, statuses: tuple[Status, Status], witness: View | None) -> bool:
+    def _either_status(self, probe: Probe, statuses: set[Any], witness: View | None) -> bool:
         """Whether a change in the last place of the memory turns one of two statuses into the other."""
         view = witness or self.views.reference or self.views.interpret
-        return len({answer.status for answer in self._nearby(probe, view)} & set(statuses)) == 2
+        met = {self._all_statuses(probe.entry, answer) for answer in self._nearby(probe, view)}
+        return statuses <= met
 
     def _is_rounding(self, probe: Probe, where: str, name: str, difference: float, scales: Mapping[str, Any]) -> bool:
         """Whether a difference is no larger than what rounding of the memory itself causes (an ill-conditioned map)."""

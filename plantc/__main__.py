@@ -136,7 +136,15 @@ def derive_command(model: str, point: str, dt: float | None, as_json: bool, debu
     def body() -> NoReturn:
         plants, names, path = models.plants_of(model)
         answers = []
+        if dt is not None and not any(isinstance(plant.dt, tuple) for _, plant in plants):
+            raise UsageError(f"{path}: --dt is given, but no plant has its time step as an input; leave it out")
         for label, plant in plants:
+            if isinstance(plant.dt, tuple) and dt is None:
+                low, high = plant.dt
+                raise UsageError(
+                    f"{path}: the time step of {label} is an input ({low:g} .. {high:g} s); give --dt, or name a plant: "
+                    f"{path}:{plants[0][0]}"
+                )
             given = models.operating_point(point, plant, names, path) if point else {}
             answer = _derived(label, plant, given, dt)
             answers.append(answer)
@@ -151,7 +159,7 @@ def _derived(label: str, plant: Any, given: dict[str, Any], dt: float | None) ->
     from .symbolic.analysis import OperatingPoint, linearise
 
     at = OperatingPoint.at(plant, given)
-    options = {"dt": dt} if dt is not None else {}
+    options = {"dt": dt} if isinstance(plant.dt, tuple) else {}
     made = linearise(plant, at, **options)
     control, observe = made.controllability(), made.observability()
     return {

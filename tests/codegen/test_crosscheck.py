@@ -80,14 +80,28 @@ def with_c(block, change, precision="double"):
     return make_views(block, precision, NativeView(block, precision, text=dataclasses.replace(text, source=source)))
 
 
+def sign_flipped(source):
+    """Flip a sign in the first row of the measurement update."""
+    head, tail = source.split("static swing_ekf_status_t swing_ekf_update_pair_core", 1)
+    row = tail.index("/* row 0")
+    return head + "static swing_ekf_status_t swing_ekf_update_pair_core" + tail[:row] + tail[row:].replace(" + (", " - (", 1)
+
+
 def test_a_fault_in_the_emitter_is_caught(block):
-    views = with_c(block, lambda source: source.replace(" - (", " + (", 1))
+    views = with_c(block, sign_flipped)
     check = cross_check(block, views=views, steps=40)
     assert "native = reference" in failed(check)
     mismatch = next(item for item in check.failures if item.name == "native = reference").mismatch
     assert mismatch.left == "native"
     assert mismatch.left_value != mismatch.right_value
     assert mismatch.signal
+
+
+def test_an_indefinite_matrix_that_init_lets_pass_is_caught(block):
+    views = with_c(block, lambda source: source.replace("params->variance_pair[2] - (", "params->variance_pair[2] + (", 1))
+    check = cross_check(block, views=views, steps=30)
+    mismatch = next(item for item in check.failures if item.name == "native = reference").mismatch
+    assert (mismatch.entry, mismatch.left_value, mismatch.right_value) == ("init", "OK", "BAD_PARAM")
 
 
 def test_a_commit_before_the_judgement_is_caught(block):
@@ -162,7 +176,7 @@ def test_a_float_that_is_too_coarse_is_caught(block):
 
 def test_a_mismatch_fails_the_export_and_writes_nothing(block, tmp_path):
     text = emit(block)
-    faulty = dataclasses.replace(text, source=text.source.replace(" - (", " + (", 1))
+    faulty = dataclasses.replace(text, source=sign_flipped(text.source))
     with pytest.raises(ExportError, match=r"native = \w+.*step \d+, entry \w+, memory|outputs|status"):
         export(block, tmp_path, steps=30, native=NativeView(block, text=faulty))
     assert list(tmp_path.iterdir()) == []

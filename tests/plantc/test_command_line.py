@@ -87,12 +87,12 @@ def program(*arguments, **options):
 
 
 def test_as_a_program_streams_and_status(model):
-    done = program("derive", model(PENDULUM + "print('I talk')\n"), "--json")
+    done = program("derive", model(PENDULUM + "print('I talk')\n"), "--dt", 0.01, "--json")
     assert done.returncode == 0
     assert json.loads(done.stdout)["plants"][0]["plant"] == "pendulum"
     assert done.stderr.splitlines()[0] == "I talk"
     assert "\x1b" not in done.stderr  # no colours, no progress bar
-    assert done.stderr.splitlines()[-1] == "model.py: 2 plant(s) derived" or done.returncode
+    assert done.stderr.splitlines()[-1] == "model.py: 2 plant(s) derived"
 
 
 def test_as_a_program_a_mistake(model):
@@ -222,7 +222,9 @@ def test_derive_at_the_origin(model, plantc):
     assert not made["discrete"]
 
 
-@pytest.mark.parametrize("point", ["aside", "by_trim", "theta=0.5", "theta=0.5,torque=0.25", " theta = 5e-1 , torque=0"])
+@pytest.mark.parametrize(
+    "point", ["aside", "by_trim", "theta=0.5", "theta=0.5,torque=0.25", " theta = 5e-1 , torque=0"]
+)
 def test_derive_at_a_point(model, plantc, point):
     import math
 
@@ -251,12 +253,13 @@ def test_derive_at_no_point(model, plantc, point, words):
 
 def test_derive_of_a_plant_with_dt_as_an_input_needs_dt(model, plantc):
     name = f"{model(PENDULUM)}:sampled"
-    fails(plantc("derive", name), 2, "dt", "1e-05 .. 0.1")
+    fails(plantc("derive", name), 2, "--dt", "1e-05 .. 0.1", "model.py:sampled")
     said = plantc("derive", name, "--dt", 0.01, "--json")
     made = one_object(said)["plants"][0]
     assert made["discrete"]
     assert made["A"][0] == [1.0, 0.01]
     fails(plantc("derive", name, "--dt", 1.0), 2, "dt")
+    fails(plantc("derive", "model.py:pendulum", "--dt", 0.01), 2, "--dt", "leave it out")
 
 
 # -- export -----------------------------------------------------------------------------------------------------------
@@ -266,7 +269,15 @@ def contents(folder):
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
-FILES = {"CMakeLists.txt", "evidence.json", "example_main.c", "low_pass.c", "low_pass.h", "manifest.json", "test_vectors.c"}
+FILES = {
+    "CMakeLists.txt",
+    "evidence.json",
+    "example_main.c",
+    "low_pass.c",
+    "low_pass.h",
+    "manifest.json",
+    "test_vectors.c",
+}
 
 
 def test_export_writes_a_folder_and_says_so(model, plantc, tmp_path):
@@ -293,7 +304,9 @@ def test_export_of_a_filter_in_float(model, plantc, tmp_path):
     said = plantc("export", f"{model(PENDULUM)}:pendulum_ekf", *FAST, "--precision", "float", "--out", "deep/down")
     assert said.status == 0, said.err
     assert json.loads((tmp_path / "deep/down/pendulum_ekf/manifest.json").read_text())["precision"] == "float"
-    assert "double" not in re.sub(r"/\*.*?\*/", "", (tmp_path / "deep/down/pendulum_ekf/pendulum_ekf.c").read_text(), flags=re.S)
+    assert "double" not in re.sub(
+        r"/\*.*?\*/", "", (tmp_path / "deep/down/pendulum_ekf/pendulum_ekf.c").read_text(), flags=re.S
+    )
 
 
 def test_export_twice_gives_the_same_bytes_and_leaves_other_files(model, plantc, tmp_path):
@@ -354,7 +367,7 @@ def plant_a_fault(monkeypatch):
 
     def with_fault(block, precision, native=None):
         text = emit(block, precision)
-        wrong = text.source.replace("weight * ", "1.0000001 * weight * ")
+        wrong = text.source.replace("(raw - smooth)", "(1.0000001 * (raw - smooth))")
         assert wrong != text.source
         return make_views(block, precision, NativeView(block, precision, text=replace(text, source=wrong)))
 
@@ -426,7 +439,7 @@ def test_check_finds_a_missing_file(exported, plantc, file):
 
 def test_check_runs_the_c_that_lies_there(exported, plantc):
     path = exported[1] / "low_pass.c"
-    wrong = path.read_text().replace("weight * ", "1.0000001 * weight * ")
+    wrong = path.read_text().replace("(raw - smooth)", "(1.0000001 * (raw - smooth))")
     assert wrong != path.read_text()
     path.write_text(wrong)
     said = checked(plantc, exported)
@@ -518,8 +531,9 @@ def test_designed_numbers_that_cannot_be_read(model, plantc, tmp_path):
 def test_progress_is_shown_on_a_terminal_only():
     import io
 
-    from plantc.__main__ import Session
     from rich.console import Console
+
+    from plantc.__main__ import Session
 
     for terminal in (False, True):
         session = Session(False, False)
