@@ -17,7 +17,7 @@ from .views import InterpretView, Record, View
 
 LONGEST = 24
 DIGITS = {"double": 9, "float": 6}
-TOLERANCE = {"double": 1e-7, "float": 2e-3}
+TOLERANCE = {"double": 1e-6, "float": 2e-3}
 
 
 @dataclass
@@ -200,7 +200,7 @@ def _is_sturdy(view: View, probe: Probe, status: Any, sizes: Record, precision: 
     answer = view.call(probe.entry, memory, inputs, params)
     if answer.status != status or answer.margin < 1e-4:
         return False
-    unit = 100.0 ** (-DIGITS[precision] / 2) * 10
+    unit = 10.0 ** -DIGITS[precision]
     for sign in (-1.0, 1.0):
         moved = memory.copy()
         for k, (name, value) in enumerate(flatten(memory).items()):

@@ -84,7 +84,12 @@ def sign_flipped(source):
     """Flip a sign in the first row of the measurement update."""
     head, tail = source.split("static swing_ekf_status_t swing_ekf_update_pair_core", 1)
     row = tail.index("/* row 0")
-    return head + "static swing_ekf_status_t swing_ekf_update_pair_core" + tail[:row] + tail[row:].replace(" + (", " - (", 1)
+    return (
+        head
+        + "static swing_ekf_status_t swing_ekf_update_pair_core"
+        + tail[:row]
+        + tail[row:].replace(" + (", " - (", 1)
+    )
 
 
 def test_a_fault_in_the_emitter_is_caught(block):
@@ -98,7 +103,9 @@ def test_a_fault_in_the_emitter_is_caught(block):
 
 
 def test_an_indefinite_matrix_that_init_lets_pass_is_caught(block):
-    views = with_c(block, lambda source: source.replace("params->variance_pair[2] - (", "params->variance_pair[2] + (", 1))
+    views = with_c(
+        block, lambda source: source.replace("params->variance_pair[2] - (", "params->variance_pair[2] + (", 1)
+    )
     check = cross_check(block, views=views, steps=30)
     mismatch = next(item for item in check.failures if item.name == "native = reference").mismatch
     assert (mismatch.entry, mismatch.left_value, mismatch.right_value) == ("init", "OK", "BAD_PARAM")

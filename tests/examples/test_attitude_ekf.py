@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from plantc.examples.attitude_ekf import attitude_ekf, initial_parameters
 
 from plantc import NativeView, Trace
-from plantc.examples.attitude_ekf import attitude_ekf, initial_parameters
 
 COLUMNS = {
     "gyro": ["gyro_x_rad_s", "gyro_y_rad_s", "gyro_z_rad_s"],
@@ -26,7 +26,9 @@ def log():
             return place
     if os.environ.get("CI"):
         pytest.fail("the IMU log is missing in CI: ../shared/data/imu_log")
-    pytest.skip("the IMU log is not here (it is not committed): set PLANTC_IMU_LOG to the folder with imu_first_40s.csv")
+    pytest.skip(
+        "the IMU log is not here (it is not committed): set PLANTC_IMU_LOG to the folder with imu_first_40s.csv"
+    )
 
 
 def world_down(q):

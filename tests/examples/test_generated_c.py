@@ -3,16 +3,18 @@
 from pathlib import Path
 
 import pytest
-
 from plantc.codegen.crosscheck import cross_check
 from plantc.codegen.package import MEASURED, build_files
+
 from plantc.regenerate import EXAMPLES
 
 FOLDER = Path(__file__).resolve().parents[2] / "generated_c"
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("block", "precision"), EXAMPLES, ids=[f"{block.name}-{precision}" for block, precision in EXAMPLES])
+@pytest.mark.parametrize(
+    ("block", "precision"), EXAMPLES, ids=[f"{block.name}-{precision}" for block, precision in EXAMPLES]
+)
 def test_regenerating_gives_the_same_bytes(block, precision):
     files = build_files(block, precision, cross_check(block, precision))
     folder = FOLDER / block.name

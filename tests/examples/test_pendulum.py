@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from plantc.codegen import TraceCall
+from plantc.examples.pendulum import pendulum_ekf
 from scipy.stats import chi2
 
 from plantc import NativeView, Trace
-from plantc.codegen import TraceCall
-from plantc.examples.pendulum import pendulum_ekf
 
 DT = 0.01
 GATE = 9.0

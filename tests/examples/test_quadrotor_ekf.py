@@ -3,11 +3,19 @@
 import casadi as ca
 import numpy as np
 import pytest
+from plantc.codegen import TraceCall
+from plantc.examples.quadrotor_ekf import (
+    hover,
+    initial_variance,
+    quadrotor,
+    quadrotor_ekf,
+    quadrotor_kf,
+    sampled,
+    set_point,
+)
+from plantc.symbolic.discretisation import transition
 
 from plantc import InterpretView, NativeView, Trace, kalman_filter, linearise, trim
-from plantc.codegen import TraceCall
-from plantc.examples.quadrotor_ekf import hover, initial_variance, quadrotor, quadrotor_ekf, quadrotor_kf, sampled, set_point
-from plantc.symbolic.discretisation import transition
 
 X = np.array([1, -2, 3, 0.5, 29, -0.3, 0.2, -0.4, -0.3, 0.6, 0.7, -0.8])
 U = np.array([200.0, 210, 220, 230])
@@ -50,7 +58,9 @@ def test_the_linear_model_of_section_3():
 
 def test_hover_is_the_trim():
     free = [symbol for symbol in quadrotor.inputs]
-    point = trim(quadrotor, hold={**{s.symbol: 0 for s in quadrotor.states}, "z": 30}, free=free, guess={f: 200 for f in free})
+    point = trim(
+        quadrotor, hold={**{s.symbol: 0 for s in quadrotor.states}, "z": 30}, free=free, guess={f: 200 for f in free}
+    )
     np.testing.assert_allclose(point.u, 212.718305490559, rtol=1e-12)
     assert hover == pytest.approx(212.718305490559, rel=1e-13)
 
@@ -142,17 +152,24 @@ def test_the_closed_loop_of_section_10_1e_with_the_compiled_filter(block, true_e
 
 
 def test_the_ekf_of_a_linear_plant_is_the_kf():
-    from plantc import extended_kalman_filter
     from plantc.symbolic.analysis import linearised_plant
 
+    from plantc import extended_kalman_filter
+
     linear = linearised_plant(sampled, set_point)
-    ekf = InterpretView(extended_kalman_filter(linear, initial_variance={s.signal.name: 0.01 / 3 for s in linear.states}, around=set_point))
+    ekf = InterpretView(
+        extended_kalman_filter(
+            linear, initial_variance={s.signal.name: 0.01 / 3 for s in linear.states}, around=set_point
+        )
+    )
     kf = InterpretView(kalman_filter(sampled, at=set_point, initial_variance=initial_variance))
     rng = np.random.default_rng(0)
     calls = []
     for _ in range(40):
         inputs = {f"rotor_{i}": hover + rng.normal() for i in (1, 2, 3, 4)}
-        calls.append(TraceCall("step", {**inputs, "has_pose": True, "pose": np.eye(12)[4] * 30 + 0.1 * rng.normal(size=12)}))
+        calls.append(
+            TraceCall("step", {**inputs, "has_pose": True, "pose": np.eye(12)[4] * 30 + 0.1 * rng.normal(size=12)})
+        )
     answers = [view.run(Trace("noise", calls)) for view in (ekf, kf)]
     for name in ("x", "z", "yaw_rate", "covariance"):
         np.testing.assert_allclose(answers[0].column(name), answers[1].column(name), rtol=1e-10, atol=1e-10)

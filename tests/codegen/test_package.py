@@ -1,0 +1,119 @@
+"""What an export writes, whole or not at all, and what `check` finds."""
+
+import json
+import shutil
+import subprocess
+
+import pytest
+from plantc.codegen import package
+from plantc.codegen.package import ExportError, check_folder, export, read_manifest, write_folder
+from plantc.examples.pendulum import pendulum_ekf
+
+STEPS = 25
+
+
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory):
+    return export(pendulum_ekf, tmp_path_factory.mktemp("out"), precision="float", steps=STEPS)
+
+
+def test_the_files_are_those_promised(exported):
+    names = {path.name for path in exported.folder.iterdir()}
+    assert names == {
+        "pendulum_ekf.h", "pendulum_ekf.c", "test_vectors.c", "example_main.c", "CMakeLists.txt", "manifest.json",
+        "evidence.json",
+    }  # fmt: skip
+    for path in exported.folder.glob("*.c"):
+        library = path.name == "pendulum_ekf.c"
+        assert library != any(word in path.name for word in ("main", "test", "vectors"))
+        assert library or "int main(void)" in path.read_text()
+        assert all(len(line) <= 120 for line in path.read_text().split("\n")), path.name
+
+
+def test_manifest_and_evidence_say_what_was_done(exported):
+    manifest = read_manifest(exported.folder)
+    assert manifest["model"] == pendulum_ekf.model_hash()
+    assert manifest["reference"] == "independent NumPy reference"
+    assert manifest["not_checked"]
+    evidence = json.loads((exported.folder / "evidence.json").read_text())
+    assert evidence["passed"] is True
+    names = {item["name"] for item in evidence["checks"]}
+    assert {"float = double", "shipped vectors", "F = complex step", "a refused call changes nothing"} <= names
+    assert len(set(evidence["statuses_reached"])) >= 8
+
+
+def test_the_vectors_reach_every_status_that_the_check_reached_and_can_fail(exported, tmp_path):
+    text = (exported.folder / "test_vectors.c").read_text()
+    for status in ("OK", "BAD_INPUT", "BAD_PARAM", "OVERFLOW", "RECOVERED", "SKIPPED"):
+        assert f"PENDULUM_EKF_{status}" in text
+    folder = tmp_path / "copy"
+    shutil.copytree(exported.folder, folder)
+    source = (folder / "pendulum_ekf.c").read_text()
+    files = {path.name: path.read_text() for path in folder.iterdir()}
+    assert package.run_vectors("pendulum_ekf", files).passed
+    files["pendulum_ekf.c"] = source.replace("delta[0] = ", "delta[0] = 1.1f * ", 1)
+    assert files["pendulum_ekf.c"] != source
+    broken = package.run_vectors("pendulum_ekf", files)
+    assert not broken.passed
+    assert "differ" in broken.note
+
+
+def test_cmake_builds_and_tests_it(exported, tmp_path):
+    cmake = shutil.which("cmake")
+    if cmake is None:
+        pytest.skip("cmake is not installed (plantc does not need it: the CMakeLists.txt is for its users)")
+    build = tmp_path / "build"
+    subprocess.run([cmake, "-S", str(exported.folder), "-B", str(build)], check=True, capture_output=True)
+    subprocess.run([cmake, "--build", str(build)], check=True, capture_output=True)
+    subprocess.run([shutil.which("ctest"), "--test-dir", str(build)], check=True, capture_output=True)
+
+
+def test_check_finds_what_was_changed(exported, tmp_path):
+    folder = tmp_path / "pendulum_ekf"
+    shutil.copytree(exported.folder, folder)
+    assert check_folder(folder, pendulum_ekf, steps=STEPS).passed
+    source = folder / "pendulum_ekf.c"
+    source.write_text(source.read_text().replace("0.5f", "0.51f", 1))
+    (folder / "CMakeLists.txt").unlink()
+    found = check_folder(folder, pendulum_ekf, steps=STEPS)
+    assert not found.passed
+    assert "pendulum_ekf.c" in found.changed
+    assert found.missing == ["CMakeLists.txt"]
+
+
+def test_a_failed_check_leaves_what_was_there(tmp_path, monkeypatch):
+    folder = tmp_path / "pendulum_ekf"
+    folder.mkdir()
+    (folder / "pendulum_ekf.c").write_text("old")
+    original = package.cross_check
+
+    def failing(*args, **kwargs):
+        check = original(*args, **kwargs)
+        check.results[0].passed = False
+        return check
+
+    monkeypatch.setattr(package, "cross_check", failing)
+    with pytest.raises(ExportError, match="pendulum_ekf: the check 'F = complex step' failed"):
+        export(pendulum_ekf, tmp_path, steps=STEPS)
+    assert [path.name for path in tmp_path.iterdir()] == ["pendulum_ekf"]
+    assert (folder / "pendulum_ekf.c").read_text() == "old"
+
+
+def test_writing_is_whole_and_keeps_other_files(tmp_path):
+    folder = tmp_path / "x"
+    folder.mkdir()
+    (folder / "notes.txt").write_text("mine")
+    write_folder(folder, {"a.c": "1", "b.h": "2"})
+    assert {path.name for path in folder.iterdir()} == {"notes.txt", "a.c", "b.h"}
+    with pytest.raises(TypeError):
+        write_folder(folder, {"a.c": "new", "b.h": 3})
+    assert (folder / "a.c").read_text() == "1"
+    assert [path.name for path in tmp_path.iterdir()] == ["x"]
+
+
+def test_a_folder_without_a_manifest(tmp_path):
+    with pytest.raises(FileNotFoundError, match=r"there is no manifest.json; give a folder that plantc export wrote"):
+        read_manifest(tmp_path)
+    (tmp_path / "manifest.json").write_text("{")
+    with pytest.raises(FileNotFoundError, match="not readable as JSON"):
+        read_manifest(tmp_path)

@@ -1,0 +1,121 @@
+"""connect: order, delays, units, loops, and the composed oracle."""
+
+import numpy as np
+import pytest
+
+from plantc import (
+    Block,
+    ModelError,
+    NativeView,
+    Plant,
+    connect,
+    cross_check,
+    delay,
+    extended_kalman_filter,
+    steady_state_kalman_filter,
+)
+
+
+def low_pass(name="low_pass", unit="m"):
+    block = Block(name)
+    raw = block.input("raw", unit=unit, range=(-100, 100))
+    weight = block.parameter("weight", 0.25, range=(0, 1))
+    smooth = block.memory("smooth", unit=unit, range=(-100, 100))
+    following = smooth + weight * (raw - smooth)
+    block.entry(
+        "step", inputs=[raw], following={smooth: following}, outputs={"value": following}, output_units={"value": unit}
+    )
+    return block
+
+
+def cart():
+    plant = Plant("cart")
+    position = plant.state("position", unit="m", range=(-90, 90))
+    speed = plant.state("speed", unit="m/s", range=(-100, 100))
+    push = plant.input("push", unit="m/s^2", range=(-5, 5))
+    gust = plant.noise("gust", density=0.01, unit="m/s^2")
+    plant.dynamics({position: speed, speed: push + gust - speed})
+    plant.sensor("gps", position, unit="m", variance=0.5, range=(-95, 95))
+    return plant.discretise("exact", dt=0.1)
+
+
+def test_two_in_a_row_are_called_in_order_whatever_the_order_given():
+    block = connect({"second": low_pass(), "first": low_pass()}, {"second.raw": "first.value"}, "chain")
+    view = NativeView(block)
+    memory, params = view.init(), view.params()
+    answer = view.call("step", memory, view.inputs("step", {"first_raw": 8.0}), params)
+    assert answer.memory["first"]["smooth"] == 2.0
+    assert answer.memory["second"]["smooth"] == 0.5
+    assert answer.outputs["second"]["value"] == 0.5
+
+
+def test_parameters_are_nested_by_part():
+    block = connect({"a": low_pass(), "b": low_pass()}, {"b.raw": "a.value"}, "chain")
+    view = NativeView(block)
+    params = view.params(**{"b__weight": 1.0})
+    answer = view.call("step", view.init(params), view.inputs("step", {"a_raw": 8.0}), params)
+    assert answer.memory["b"]["smooth"] == 2.0
+
+
+def test_a_delay_hands_on_the_step_before():
+    block = connect({"a": low_pass(), "b": low_pass()}, {"b.raw": delay("a.value", initial=4.0)}, "late")
+    view = NativeView(block)
+    params = view.params()
+    memory = view.init(params)
+    seen = []
+    for _ in range(2):
+        answer = view.call("step", memory, view.inputs("step", {"a_raw": 8.0}), params)
+        memory = answer.memory
+        seen.append(float(memory["b"]["smooth"]))
+    assert seen == [1.0, 1.0 + 0.25 * (2.0 - 1.0)]
+
+
+def test_a_loop_without_a_delay_is_named():
+    with pytest.raises(
+        ModelError, match=r"loop: (a -> b -> a|b -> a -> b) feed each other within one step; put a delay"
+    ):
+        connect({"a": low_pass(), "b": low_pass()}, {"a.raw": "b.value", "b.raw": "a.value"}, "loop")
+
+
+@pytest.mark.parametrize(
+    ("wires", "says"),
+    [
+        ({"b.raw": "a.nothing"}, "part 'a' has no signal 'nothing'; it has value, smooth"),
+        ({"b.row": "a.value"}, "part 'b' has no input 'row'; it has raw"),
+        ({"c.raw": "a.value"}, "the wire end 'c.raw' is not part.signal; the parts are a, b"),
+    ],
+)
+def test_a_wire_to_nowhere(wires, says):
+    with pytest.raises(ModelError, match=says):
+        connect({"a": low_pass(), "b": low_pass()}, wires, "chain")
+
+
+def test_units_must_match():
+    with pytest.raises(ModelError, match=r"joins \[m\] to \[V\]; convert the unit, or mend the wire"):
+        connect({"a": low_pass(), "b": low_pass(unit="V")}, {"b.raw": "a.value"}, "chain")
+
+
+def test_a_filter_feeds_another_and_all_views_agree():
+    ekf = extended_kalman_filter(cart(), initial_variance={"position": 10, "speed": 1})
+    steady = steady_state_kalman_filter(cart())
+    block = connect({"ekf": ekf, "steady": steady}, {"steady.gps": "ekf.position"}, "pair")
+    check = cross_check(block, steps=40)
+    assert check.passed, [str(item) for item in check.failures]
+    assert any(result.name == "native = reference" and result.calls > 50 for result in check.results)
+
+
+def test_a_refused_part_refuses_the_whole_and_changes_nothing():
+    block = connect({"a": low_pass(), "b": low_pass()}, {"b.raw": "a.value"}, "chain")
+    view = NativeView(block)
+    params = view.params()
+    memory = view.init(params)
+    memory["b"]["smooth"] = 7.0
+    answer = view.call("step", memory, view.inputs("step", {"a_raw": np.nan}), params)
+    assert answer.status < 0
+    assert answer.memory.tobytes() == memory.tobytes()
+
+
+def test_without_every_oracle_there_is_none():
+    ekf = extended_kalman_filter(cart(), initial_variance={"position": 10, "speed": 1})
+    assert connect({"ekf": ekf, "low": low_pass()}, {"low.raw": "ekf.position"}, "half").oracle is None
+    assert connect({"ekf": ekf}, {}, "alone").oracle is not None
