@@ -293,7 +293,7 @@ def _adversarial(
         for signal in (
             item for item in block.param_signals_flat() if item.kind is Kind.REAL and "variance" in item.name
         ):
-            # no noise at all, and noise that makes the innovation variance negative: parameters that init would refuse
+            # no noise at all, and negative noise: parameters that init would refuse
             for value in (0.0, -1.0e3):
                 source = sources[int(rng.integers(len(sources)))]
                 whole = fill(params.copy(), {signal.name: np.full(signal.size, value)})
@@ -380,7 +380,11 @@ def _indefinite(block: Block, params: Record) -> Iterator[Record]:
     """Yield parameters in which a packed matrix (elements of either sign beside positive ones) is indefinite."""
     for signal in block.param_signals_flat():
         low = np.array(signal.low)
-        if signal.kind is not Kind.REAL or signal.uniform_range is not None or not (np.any(low < 0) and np.any(low >= 0)):
+        if (
+            signal.kind is not Kind.REAL
+            or signal.uniform_range is not None
+            or not (np.any(low < 0) and np.any(low >= 0))
+        ):
             continue
         values = flatten(params)[signal.name].astype(float)
         for factor in (1.5, -1.5):
@@ -591,7 +595,11 @@ class _Lockstep:
         worst = int(np.argmax(difference))
         result.worst = max(result.worst, float(difference[worst]))
         first_time = result.mismatch is None
-        if difference[worst] > limit and first_time and self._is_rounding(probe, where, name, float(difference[worst]), scales):
+        if (
+            difference[worst] > limit
+            and first_time
+            and self._is_rounding(probe, where, name, float(difference[worst]), scales)
+        ):
             result.ill_conditioned += 1
         elif difference[worst] > limit:
             left, right = check.split(" = ")

@@ -340,7 +340,7 @@ def _middle_text(signals: tuple[Signal, ...], precision: Precision) -> str:
 # Designed numbers
 
 
-def with_design(block: Block, path: Path, *, redesign: bool = False) -> tuple[Block, bool]:
+def with_design(block: Block, path: Path, *, redesign: bool = False, write: bool = True) -> tuple[Block, bool]:
     """Return the block with the numbers of a design.json, written first where it is absent.
 
     Parameters
@@ -351,6 +351,8 @@ def with_design(block: Block, path: Path, *, redesign: bool = False) -> tuple[Bl
         The design.json beside the model.
     redesign : bool
         Write the numbers anew even where they are there.
+    write : bool
+        Whether an absent file is written.
 
     Returns
     -------
@@ -374,6 +376,8 @@ def with_design(block: Block, path: Path, *, redesign: bool = False) -> tuple[Bl
     own = stored.get(block.name)
     if own is None or redesign:
         values = {name: np.asarray(value).tolist() for name, value in design.values.items()}
+        if not write:
+            return block, False
         stored[block.name] = {"source": design.source, "values": values}
         path.write_text(json.dumps(dict(sorted(stored.items())), indent=2) + "\n")
         return block, True

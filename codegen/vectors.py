@@ -95,9 +95,9 @@ class VectorTable:
             return f"({self.block.name}_status_t){int(value)}"
         number = float(value)
         if np.isnan(number):
-            return "NAN"
+            return f"({self.precision.name})NAN"
         if np.isinf(number):
-            return "INFINITY" if number > 0 else "-INFINITY"
+            return f"({self.precision.name}){'' if number > 0 else '-'}INFINITY"
         return self.precision.literal(float(f"{number:.{self.digits - 1}e}"))
 
 

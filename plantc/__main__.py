@@ -304,7 +304,7 @@ def check_command(folder: Path, model: str, steps: int, as_json: bool, debug: bo
             raise UsageError(
                 f"{path}: it has no block {manifest['name']!r}, which {folder} was written from; it has {names}"
             )
-        block, _ = with_design(wanted[0], path.parent / "design.json")
+        block, _ = with_design(wanted[0], path.parent / "design.json", write=False)
         with session.progress() as display:
             task = display.add_task(block.name, total=None)
             found = check_folder(

@@ -831,7 +831,10 @@ class _Builder:
         comment = ["x = x + d"]
         if plant.has_attitude:
             comment = ["x = x + d, attitudes turned by exp(d); the error is now counted from there: P = G P G'"]
-        reads: list[tuple[Sequence[ca.SX], Sequence[Any]]] = [(symbols, places), ([d], [((Place("local", "delta"), self.n),)])]
+        reads: list[tuple[Sequence[ca.SX], Sequence[Any]]] = [
+            (symbols, places),
+            ([d], [((Place("local", "delta"), self.n),)]),
+        ]
         body.append(self._evaluate(f"correct_{sensor}", reads, outputs, comment))
         if plant.has_attitude:
             body.append(

@@ -151,9 +151,9 @@ static const attitude_ekf_params_t parameters[] = {
     {0.5f, 0.8f, {9.025e-7f, 9.025e-7f, 9.025e-7f}, {1.0e-10f, 1.0e-10f, 1.0e-10f}, 0.0f, {0.0025f, 0.0025f, 0.0025f},
      0.0f, 0U, 100.0f, {1.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {0.04f, 0.04f, 0.04f}, {0.0001f, 0.0001f,
      0.0001f}},
-    {NAN, 0.8f, {9.025e-7f, 9.025e-7f, 9.025e-7f}, {1.0e-10f, 1.0e-10f, 1.0e-10f}, 0.0f, {0.0025f, 0.0025f, 0.0025f},
-     0.0f, 0U, 100.0f, {1.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {0.04f, 0.04f, 0.04f}, {0.0001f, 0.0001f,
-     0.0001f}},
+    {(float)NAN, 0.8f, {9.025e-7f, 9.025e-7f, 9.025e-7f}, {1.0e-10f, 1.0e-10f, 1.0e-10f}, 0.0f, {0.0025f, 0.0025f,
+     0.0025f}, 0.0f, 0U, 100.0f, {1.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {0.04f, 0.04f, 0.04f}, {0.0001f,
+     0.0001f, 0.0001f}},
     {0.5f, 0.8f, {9.025e-7f, 9.025e-7f, 9.025e-7f}, {1.0e-10f, 1.0e-10f, 1.0e-10f}, 0.0f, {-1000.0f, -1000.0f,
      -1000.0f}, 0.0f, 0U, 100.0f, {1.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {0.04f, 0.04f, 0.04f}, {0.0001f,
      0.0001f, 0.0001f}}
@@ -163,12 +163,12 @@ static const attitude_ekf_predict_in_t predict_inputs[] = {
     {{0.76959f, 0.566705f, 0.424516f}, 0.0114006f},
     {{0.613223f, 0.671262f, 0.0598767f}, 0.0375162f},
     {{0.722009f, 0.717311f, -0.599376f}, 0.0163566f},
-    {{0.210185f, 0.279926f, NAN}, 0.0741621f}
+    {{0.210185f, 0.279926f, (float)NAN}, 0.0741621f}
 };
 
 static const attitude_ekf_update_accelerometer_in_t update_accelerometer_inputs[] = {
     {{-1.12351f, -4.37133f, -9.36367f}},
-    {{-0.476635f, -6.15573f, NAN}},
+    {{-0.476635f, -6.15573f, (float)NAN}},
     {{3.58237f, -4.62131f, -7.35538f}}
 };
 
@@ -179,7 +179,7 @@ static const attitude_ekf_update_accelerometer_out_t update_accelerometer_output
 
 static const attitude_ekf_update_magnetometer_in_t update_magnetometer_inputs[] = {
     {{0.594359f, 0.32787f, 0.679396f}},
-    {{NAN, 0.701312f, 0.60209f}},
+    {{(float)NAN, 0.701312f, 0.60209f}},
     {{0.562747f, 0.426531f, 0.740597f}},
     {{0.0856481f, 0.701312f, 0.60209f}}
 };
@@ -222,10 +222,10 @@ static const attitude_ekf_step_in_t step_inputs[] = {
      0.489679f, 0.664691f}},
     {{0.694817f, 0.656704f, -0.568949f}, 0.0645637f, false, {2.44904f, -6.61017f, -6.02828f}, true, {0.179176f,
      0.593345f, 0.803906f}},
-    {{0.55681f, NAN, 0.287001f}, 0.0290432f, false, {4.66458f, -7.2954f, -2.66372f}, true, {-0.143082f, 0.588286f,
-     0.729248f}},
-    {{-0.295215f, -0.345427f, -0.149044f}, 0.0356515f, true, {1.34862f, NAN, -8.43828f}, false, {0.437012f, 0.247015f,
-     0.769916f}}
+    {{0.55681f, (float)NAN, 0.287001f}, 0.0290432f, false, {4.66458f, -7.2954f, -2.66372f}, true, {-0.143082f,
+     0.588286f, 0.729248f}},
+    {{-0.295215f, -0.345427f, -0.149044f}, 0.0356515f, true, {1.34862f, (float)NAN, -8.43828f}, false, {0.437012f,
+     0.247015f, 0.769916f}}
 };
 
 static const attitude_ekf_step_out_t step_outputs[] = {
@@ -279,7 +279,7 @@ static const attitude_ekf_step_out_t step_outputs[] = {
 static const attitude_ekf_inflate_in_t inflate_inputs[] = {
     {1.28398f},
     {1.29624f},
-    {NAN}
+    {(float)NAN}
 };
 
 enum entry

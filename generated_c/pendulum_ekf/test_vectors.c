@@ -43,7 +43,9 @@ static const pendulum_ekf_state_t memories[] = {
     {2.37008f, 3.18786f, {0.0000393126f, 0.000501387f, 0.0206781f}, 0U},
     {2.42175f, 2.92433f, {0.0000615668f, 0.000899914f, 0.0273923f}, 0U},
     {2.61882f, -100.0f, {0.0000456891f, 0.000818636f, 0.0265896f}, 0U},
-    {3.07796f, -0.306934f, {0.0000442756f, 0.000721586f, 0.0254381f}, 0U}
+    {3.07796f, -0.306934f, {0.0000442756f, 0.000721586f, 0.0254381f}, 0U},
+    {1.78291f, -2.30667f, {0.0000732873f, 0.00399731f, 0.68658f}, 3U},
+    {1.79144f, -0.71014f, {0.0000997799f, 0.00367635f, 8.05361f}, 0U}
 };
 
 /* The natural size of an error in each field of the memory. */
@@ -51,20 +53,21 @@ static const pendulum_ekf_state_t sizes = {1.0f, 1.0f, {1.0f, 1.0f, 1.0f}, 0U};
 
 static const pendulum_ekf_params_t parameters[] = {
     {0.2f, 0.5f, 9.81f, 0.001f, 0.0001f, 0.0f, 0U, 100.0f, 0.0f, 0.0f, 1.0f, 1.0f},
-    {NAN, 0.5f, 9.81f, 0.001f, 0.0001f, 0.0f, 0U, 100.0f, 0.0f, 0.0f, 1.0f, 1.0f},
-    {0.2f, 0.5f, 9.81f, 0.001f, -1000.0f, 0.0f, 0U, 100.0f, 0.0f, 0.0f, 1.0f, 1.0f}
+    {(float)NAN, 0.5f, 9.81f, 0.001f, 0.0001f, 0.0f, 0U, 100.0f, 0.0f, 0.0f, 1.0f, 1.0f},
+    {0.2f, 0.5f, 9.81f, 0.001f, -1000.0f, 0.0f, 0U, 100.0f, 0.0f, 0.0f, 1.0f, 1.0f},
+    {0.2f, 0.5f, 9.81f, 0.001f, 0.0001f, 0.0f, 1U, 100.0f, 0.0f, 0.0f, 1.0f, 1.0f}
 };
 
 static const pendulum_ekf_predict_in_t predict_inputs[] = {
     {-0.108527f, 0.0841023f},
     {-0.0388779f, 0.0887095f},
-    {NAN, 0.0233736f},
+    {(float)NAN, 0.0233736f},
     {0.193086f, 0.0231053f}
 };
 
 static const pendulum_ekf_update_encoder_in_t update_encoder_inputs[] = {
     {-0.243297f},
-    {NAN},
+    {(float)NAN},
     {2.98732f},
     {1.64164f}
 };
@@ -94,9 +97,10 @@ static const pendulum_ekf_step_in_t step_inputs[] = {
     {-0.0713985f, 0.0116502f, true, -1.39954f},
     {-0.106187f, 0.0855012f, false, -2.55831f},
     {-0.0337277f, 0.0245475f, true, -2.67055f},
-    {NAN, 0.014498f, true, 1.65421f},
-    {-0.128939f, 0.0162088f, true, INFINITY},
-    {-0.104896f, 0.0934316f, true, 2.8123f}
+    {(float)NAN, 0.014498f, true, 1.65421f},
+    {-0.128939f, 0.0162088f, true, (float)INFINITY},
+    {-0.104896f, 0.0934316f, true, 2.8123f},
+    {0.196298f, 0.0183889f, true, 1.79155f}
 };
 
 static const pendulum_ekf_step_out_t step_outputs[] = {
@@ -115,12 +119,13 @@ static const pendulum_ekf_step_out_t step_outputs[] = {
     {(pendulum_ekf_status_t)0, {0.0255937f, 0.000630438f, 1.03902f}},
     {(pendulum_ekf_status_t)0, {-0.00464976f, 0.000205672f, 0.10512f}},
     {(pendulum_ekf_status_t)0, {-0.0715317f, 0.00226658f, 2.2575f}},
-    {(pendulum_ekf_status_t)-1, {0.0f, 0.0f, 0.0f}}
+    {(pendulum_ekf_status_t)-1, {0.0f, 0.0f, 0.0f}},
+    {(pendulum_ekf_status_t)0, {0.0510572f, 0.0454297f, 0.0573818f}}
 };
 
 static const pendulum_ekf_inflate_in_t inflate_inputs[] = {
     {1.6073f},
-    {NAN}
+    {(float)NAN}
 };
 
 enum entry
@@ -177,7 +182,8 @@ static const struct vector vectors[] = {
     { ENTRY_STEP, 30, 19, 0, 30, 1, PENDULUM_EKF_BAD_INPUT },
     { ENTRY_STEP, 31, 20, 0, 32, 15, PENDULUM_EKF_SKIPPED },
     { ENTRY_STEP, 33, 21, 0, 33, 1, PENDULUM_EKF_OVERFLOW },
-    { ENTRY_INFLATE, 34, 1, 0, 34, 0, PENDULUM_EKF_BAD_INPUT }
+    { ENTRY_INFLATE, 34, 1, 0, 34, 0, PENDULUM_EKF_BAD_INPUT },
+    { ENTRY_STEP, 35, 22, 3, 36, 16, PENDULUM_EKF_RECOVERED }
 };
 
 static int differs(float value, float expected, float size)
