@@ -205,10 +205,9 @@ class CoreWriter:
             self._loop(signal.size, f"after->{signal.name}[i] = before->{signal.name}[i];")
 
     def _loop(self, size: int, inner: str) -> None:
-        self._line(f"for (uint32_t i = 0U; i < {size}U; i++)")
-        self._line("{")
-        self._line("    " + inner)
-        self._line("}")
+        self._open(f"for (uint32_t i = 0U; i < {size}U; i++)")
+        self._line(inner)
+        self._close()
 
     # -- text helpers -------------------------------------------------------------------------------------------------
 

@@ -723,7 +723,12 @@ class _Builder:
         def tail(i: int) -> str:
             return f"[{i}]" if m > 1 else ""
 
-        comment = [f"residual{tail(i)} = {name}{tail(i)} - ({text}){wrapped}" for i, text in enumerate(expected)]
+        def subtracted(text: str) -> str:
+            return text if text.replace("_", "").isalnum() else f"({text})"
+
+        comment = [
+            f"residual{tail(i)} = {name}{tail(i)} - {subtracted(text)}{wrapped}" for i, text in enumerate(expected)
+        ]
         body: list[Statement] = [
             self._evaluate(f"measure_{name}", reads, outputs, comment),
             InnovationVariance(

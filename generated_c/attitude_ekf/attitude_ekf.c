@@ -157,7 +157,7 @@ static attitude_ekf_status_t attitude_ekf_init_core(attitude_ekf_state_t *after,
             after->bias[2] = params->bias_0[2];
             for (uint32_t i = 0U; i < 21U; i++)
             {
-            after->covariance[i] = 0.0f;
+                after->covariance[i] = 0.0f;
             }
             after->covariance[0] = params->variance_q_0[0];
             after->covariance[6] = params->variance_q_0[1];
@@ -1175,7 +1175,7 @@ static attitude_ekf_status_t attitude_ekf_inflate_core(const attitude_ekf_state_
         /* P = factor P */
         for (uint32_t i = 0U; i < 21U; i++)
         {
-        after->covariance[i] = factor * before->covariance[i];
+            after->covariance[i] = factor * before->covariance[i];
         }
 
         /* judge, then commit */

@@ -205,7 +205,7 @@ static pendulum_ekf_status_t pendulum_ekf_update_encoder_core(const pendulum_ekf
     }
     else
     {
-        /* residual = encoder - (theta), wrapped */
+        /* residual = encoder - theta, wrapped */
         const float v = encoder - before->theta;
         const float residual = v - (6.2831855f * floorf((v * 0.15915494f) + 0.5f));
 

@@ -522,7 +522,7 @@ static quadrotor_ekf_status_t quadrotor_ekf_init_core(quadrotor_ekf_state_t *aft
         after->yaw_rate = params->yaw_rate_0;
         for (uint32_t i = 0U; i < 78U; i++)
         {
-        after->covariance[i] = 0.0;
+            after->covariance[i] = 0.0;
         }
         after->covariance[0] = params->variance_x_0;
         after->covariance[12] = params->variance_vx_0;
@@ -888,18 +888,18 @@ static quadrotor_ekf_status_t quadrotor_ekf_update_pose_core(const quadrotor_ekf
     }
     else
     {
-        /* residual[0] = pose[0] - (x) */
-        /* residual[1] = pose[1] - (vx) */
-        /* residual[2] = pose[2] - (y) */
-        /* residual[3] = pose[3] - (vy) */
-        /* residual[4] = pose[4] - (z) */
-        /* residual[5] = pose[5] - (vz) */
-        /* residual[6] = pose[6] - (roll) */
-        /* residual[7] = pose[7] - (roll_rate) */
-        /* residual[8] = pose[8] - (pitch) */
-        /* residual[9] = pose[9] - (pitch_rate) */
-        /* residual[10] = pose[10] - (yaw) */
-        /* residual[11] = pose[11] - (yaw_rate) */
+        /* residual[0] = pose[0] - x */
+        /* residual[1] = pose[1] - vx */
+        /* residual[2] = pose[2] - y */
+        /* residual[3] = pose[3] - vy */
+        /* residual[4] = pose[4] - z */
+        /* residual[5] = pose[5] - vz */
+        /* residual[6] = pose[6] - roll */
+        /* residual[7] = pose[7] - roll_rate */
+        /* residual[8] = pose[8] - pitch */
+        /* residual[9] = pose[9] - pitch_rate */
+        /* residual[10] = pose[10] - yaw */
+        /* residual[11] = pose[11] - yaw_rate */
         const double residual_0 = pose[0] - before->x;
         const double residual_1 = pose[1] - before->vx;
         const double residual_2 = pose[2] - before->y;
@@ -944,7 +944,7 @@ static quadrotor_ekf_status_t quadrotor_ekf_update_pose_core(const quadrotor_ekf
         /* d = d + K e, P = P - K s K', two rows at a time; measured rows as r K */
         for (uint32_t i = 0U; i < 12U; i++)
         {
-        work.delta[i] = 0.0;
+            work.delta[i] = 0.0;
         }
         work.nis = 0.0;
         /* rows 0 and 1 */
@@ -1069,7 +1069,7 @@ static quadrotor_ekf_status_t quadrotor_ekf_inflate_core(const quadrotor_ekf_sta
         /* P = factor P */
         for (uint32_t i = 0U; i < 78U; i++)
         {
-        after->covariance[i] = factor * before->covariance[i];
+            after->covariance[i] = factor * before->covariance[i];
         }
 
         /* judge, then commit */
@@ -1123,11 +1123,11 @@ static quadrotor_ekf_status_t quadrotor_ekf_step_core(const quadrotor_ekf_state_
                 {
                     for (uint32_t i = 0U; i < 12U; i++)
                     {
-                    out->pose.innovation[i] = 0.0;
+                        out->pose.innovation[i] = 0.0;
                     }
                     for (uint32_t i = 0U; i < 12U; i++)
                     {
-                    out->pose.variance[i] = 0.0;
+                        out->pose.variance[i] = 0.0;
                     }
                     out->pose.nis = 0.0;
                     status = quadrotor_ekf_higher(status, QUADROTOR_EKF_SKIPPED);
@@ -1151,11 +1151,11 @@ static quadrotor_ekf_status_t quadrotor_ekf_step_core(const quadrotor_ekf_state_
                 {
                     for (uint32_t i = 0U; i < 12U; i++)
                     {
-                    out->pose.innovation[i] = 0.0;
+                        out->pose.innovation[i] = 0.0;
                     }
                     for (uint32_t i = 0U; i < 12U; i++)
                     {
-                    out->pose.variance[i] = 0.0;
+                        out->pose.variance[i] = 0.0;
                     }
                     out->pose.nis = 0.0;
                     status = quadrotor_ekf_higher(status, QUADROTOR_EKF_SKIPPED);
@@ -1166,11 +1166,11 @@ static quadrotor_ekf_status_t quadrotor_ekf_step_core(const quadrotor_ekf_state_
         {
             for (uint32_t i = 0U; i < 12U; i++)
             {
-            out->pose.innovation[i] = 0.0;
+                out->pose.innovation[i] = 0.0;
             }
             for (uint32_t i = 0U; i < 12U; i++)
             {
-            out->pose.variance[i] = 0.0;
+                out->pose.variance[i] = 0.0;
             }
             out->pose.nis = 0.0;
             out->status_pose = QUADROTOR_EKF_OK;

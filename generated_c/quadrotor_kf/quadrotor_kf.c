@@ -521,7 +521,7 @@ static quadrotor_kf_status_t quadrotor_kf_init_core(quadrotor_kf_state_t *after,
         after->yaw_rate = params->yaw_rate_0;
         for (uint32_t i = 0U; i < 78U; i++)
         {
-        after->covariance[i] = 0.0;
+            after->covariance[i] = 0.0;
         }
         after->covariance[0] = params->variance_x_0;
         after->covariance[12] = params->variance_vx_0;
@@ -835,18 +835,18 @@ static quadrotor_kf_status_t quadrotor_kf_update_pose_core(const quadrotor_kf_st
     }
     else
     {
-        /* residual[0] = pose[0] - (x) */
-        /* residual[1] = pose[1] - (vx) */
-        /* residual[2] = pose[2] - (y) */
-        /* residual[3] = pose[3] - (vy) */
-        /* residual[4] = pose[4] - (z) */
-        /* residual[5] = pose[5] - (vz) */
-        /* residual[6] = pose[6] - (roll) */
-        /* residual[7] = pose[7] - (roll_rate) */
-        /* residual[8] = pose[8] - (pitch) */
-        /* residual[9] = pose[9] - (pitch_rate) */
-        /* residual[10] = pose[10] - (yaw) */
-        /* residual[11] = pose[11] - (yaw_rate) */
+        /* residual[0] = pose[0] - x */
+        /* residual[1] = pose[1] - vx */
+        /* residual[2] = pose[2] - y */
+        /* residual[3] = pose[3] - vy */
+        /* residual[4] = pose[4] - z */
+        /* residual[5] = pose[5] - vz */
+        /* residual[6] = pose[6] - roll */
+        /* residual[7] = pose[7] - roll_rate */
+        /* residual[8] = pose[8] - pitch */
+        /* residual[9] = pose[9] - pitch_rate */
+        /* residual[10] = pose[10] - yaw */
+        /* residual[11] = pose[11] - yaw_rate */
         const double residual_0 = pose[0] - before->x;
         const double residual_1 = pose[1] - before->vx;
         const double residual_2 = pose[2] - before->y;
@@ -891,7 +891,7 @@ static quadrotor_kf_status_t quadrotor_kf_update_pose_core(const quadrotor_kf_st
         /* d = d + K e, P = P - K s K', two rows at a time; measured rows as r K */
         for (uint32_t i = 0U; i < 12U; i++)
         {
-        work.delta[i] = 0.0;
+            work.delta[i] = 0.0;
         }
         work.nis = 0.0;
         /* rows 0 and 1 */
@@ -1016,7 +1016,7 @@ static quadrotor_kf_status_t quadrotor_kf_inflate_core(const quadrotor_kf_state_
         /* P = factor P */
         for (uint32_t i = 0U; i < 78U; i++)
         {
-        after->covariance[i] = factor * before->covariance[i];
+            after->covariance[i] = factor * before->covariance[i];
         }
 
         /* judge, then commit */
@@ -1070,11 +1070,11 @@ static quadrotor_kf_status_t quadrotor_kf_step_core(const quadrotor_kf_state_t *
                 {
                     for (uint32_t i = 0U; i < 12U; i++)
                     {
-                    out->pose.innovation[i] = 0.0;
+                        out->pose.innovation[i] = 0.0;
                     }
                     for (uint32_t i = 0U; i < 12U; i++)
                     {
-                    out->pose.variance[i] = 0.0;
+                        out->pose.variance[i] = 0.0;
                     }
                     out->pose.nis = 0.0;
                     status = quadrotor_kf_higher(status, QUADROTOR_KF_SKIPPED);
@@ -1098,11 +1098,11 @@ static quadrotor_kf_status_t quadrotor_kf_step_core(const quadrotor_kf_state_t *
                 {
                     for (uint32_t i = 0U; i < 12U; i++)
                     {
-                    out->pose.innovation[i] = 0.0;
+                        out->pose.innovation[i] = 0.0;
                     }
                     for (uint32_t i = 0U; i < 12U; i++)
                     {
-                    out->pose.variance[i] = 0.0;
+                        out->pose.variance[i] = 0.0;
                     }
                     out->pose.nis = 0.0;
                     status = quadrotor_kf_higher(status, QUADROTOR_KF_SKIPPED);
@@ -1113,11 +1113,11 @@ static quadrotor_kf_status_t quadrotor_kf_step_core(const quadrotor_kf_state_t *
         {
             for (uint32_t i = 0U; i < 12U; i++)
             {
-            out->pose.innovation[i] = 0.0;
+                out->pose.innovation[i] = 0.0;
             }
             for (uint32_t i = 0U; i < 12U; i++)
             {
-            out->pose.variance[i] = 0.0;
+                out->pose.variance[i] = 0.0;
             }
             out->pose.nis = 0.0;
             out->status_pose = QUADROTOR_KF_OK;
