@@ -14,6 +14,13 @@ Python says.
 ['init', 'predict', 'update_gps', 'step', 'inflate']
 """
 
+from pathlib import Path as _Path
+
+# In a checkout the sub-packages lie beside this folder; so it also works where `python -m` puts the checkout first.
+_checkout = _Path(__file__).resolve().parent.parent
+if (_checkout / "pyproject.toml").is_file() and not (_Path(__file__).parent / "symbolic").exists():
+    __path__.append(str(_checkout))
+
 from .codegen import InterpretView, NativeView, ReferenceView, Trace, cross_check, emit, export
 from .symbolic import Attitude, Block, ModelError, Plant, Status
 from .symbolic.analysis import OperatingPoint, linearise, trim
