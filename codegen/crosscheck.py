@@ -230,10 +230,34 @@ def make_probes(block: Block, precision: str, views: Views, steps: int, seed: in
     plausible = [probe for probe in nominal if probe.entry != "init"]
     for step in range(steps // 2):
         source = plausible[int(rng.integers(len(plausible)))]
-        memory = fill(native.memory(), scenario.memory(rng))
-        randomised.append(Probe("randomised", step, source.entry, memory, source.inputs, params))
+        memory = fill(native.memory(), scenario.memory(rng)) if step % 2 else source.memory
+        varied = _varied(block, params, rng)
+        randomised.append(Probe("randomised", step, source.entry, memory, source.inputs, varied))
+        if step % 10 == 0:
+            randomised.append(Probe("randomised", step, "init", native.memory(), native.inputs("init", {}), varied))
     adversarial = list(_adversarial(block, scenario, native, plausible, params, rng))
     return [*nominal, *randomised, *adversarial]
+
+
+def _varied(block: Block, params: Record, rng: Any) -> Record:
+    """Return parameters near their defaults, within their ranges; one that is zero becomes of order one.
+
+    A parameter that the C took for a constant, or a switch that is off by default, is seen so.
+    """
+    values: dict[str, Any] = {}
+    for signal in block.param_signals_flat():
+        default = np.array(signal.default if signal.default is not None else (0.0,) * signal.size)
+        if signal.kind is Kind.COUNT:
+            values[signal.name] = int(rng.integers(4))
+        elif signal.kind is Kind.REAL:
+            low, high = np.array(signal.low), np.array(signal.high)
+            mixed = bool(np.any(low < 0)) and bool(np.any(low >= 0))  # a packed matrix: one factor keeps it definite
+            factor = rng.uniform(0.7, 1.4, size=1 if mixed else signal.size)
+            drawn = np.where(default == 0, 0.0 if mixed else 4.0 ** rng.uniform(-2, 2), default * factor)
+            if signal.low[0] < 0 and not mixed:
+                drawn = np.where(default == 0, 0.0, drawn)  # an initial value of zero is a good one
+            values[signal.name] = np.clip(drawn, low, high)
+    return fill(params.copy(), values)
 
 
 def _nominal(
@@ -274,12 +298,12 @@ def _adversarial(
         for signal in (item for item in entry.inputs if item.kind is Kind.REAL):
             # the entry that does everything meets every bad value, the others the worst of them
             values = _bad_values(signal, native.precision.dtype)
-            for value in values if name == "step" else values[:8:2]:
+            for value in values if name == "step" else (values[0], values[3], values[5]):
                 source = sources[int(rng.integers(len(sources)))]
                 yield probe(name, source.memory, _with_element(source.inputs, signal, value, rng), params)
         if entry.checks_params:
             for signal in (item for item in block.param_signals_flat() if item.kind is Kind.REAL):
-                for value in _bad_values(signal, native.precision.dtype)[0:6:5]:  # NaN, and just outside
+                for value in _bad_values(signal, native.precision.dtype)[3:6:2]:  # just outside on either side
                     yield probe(
                         name, native.memory(), native.inputs(name, {}), _with_element(params, signal, value, rng)
                     )
@@ -304,22 +328,21 @@ def _adversarial(
         for factor in (1.0e-12, 1.0e6, 1.0e12):
             source = sources[int(rng.integers(len(sources)))]
             yield probe(name, _scaled_arrays(source.memory, block, factor), source.inputs, params)
-    for count in (1.0, 2.0):
-        yield from _recoveries(block, native, plausible, params, count, probe)
+    yield from _recoveries(block, native, plausible, params, probe)
     yield from _long_gaps(block, scenario, native, plausible, params, probe)
 
 
 def _recoveries(
-    block: Block, native: View, plausible: list[Probe], params: Record, limit: float, probe: Callable[..., Probe]
+    block: Block, native: View, plausible: list[Probe], params: Record, probe: Callable[..., Probe]
 ) -> Iterator[Probe]:
-    """Yield steps with counters at their limit."""
-    counters = {signal.name: 3 for signal in block.memory_signals_flat() if signal.kind is Kind.COUNT}
-    limits = {signal.name: limit for signal in block.param_signals_flat() if signal.kind is Kind.COUNT}
+    """Yield steps with counters just below, at and above their limit."""
+    counters = [signal.name for signal in block.memory_signals_flat() if signal.kind is Kind.COUNT]
+    limits = {signal.name: 2 for signal in block.param_signals_flat() if signal.kind is Kind.COUNT}
     if not counters or not limits:
         return
-    used = fill(params.copy(), limits)
-    for source in [item for item in plausible if item.entry == "step"][:6]:
-        yield probe("step", fill(source.memory.copy(), counters), source.inputs, used)
+    for k, source in enumerate([item for item in plausible if item.entry == "step"][:9]):
+        used = fill(params.copy(), limits)
+        yield probe("step", fill(source.memory.copy(), {name: 1 + k % 3 for name in counters}), source.inputs, used)
 
 
 def _long_gaps(
@@ -347,8 +370,10 @@ def _bad_values(signal: Signal, real: Any) -> list[float]:
     outside = float(np.nextafter(real(high), real(np.inf)))
     below = float(np.nextafter(real(low), real(-np.inf)))
     tiny = float(np.finfo(real).smallest_subnormal)
+    span = max(abs(low), abs(high))
     return [
-        math.nan, math.inf, -math.inf, high, low, outside, below, 10 * high + 1, 0.0, -0.0, tiny, -tiny, math.pi, -math.pi,
+        math.nan, math.inf, high, outside, low, below, high + 1e-5 * span, low - 1e-5 * span, -math.inf, 10 * high + 1,
+        0.0, -0.0, tiny, -tiny, math.pi, -math.pi,
     ]  # fmt: skip
 
 
@@ -439,6 +464,8 @@ class _Lockstep:
             for name, entry in block.entries.items()
         }
         self.largest: dict[tuple[str, str, str], Any] = {}
+        self.excused: set[tuple[str, str, int]] = set()
+        self.excused_plausible: dict[str, int] = {}
         self.scales = None if block.scenario is None else block.scenario.scales
 
     def compare(self, probe: Probe) -> None:
@@ -600,7 +627,12 @@ class _Lockstep:
             and first_time
             and self._is_rounding(probe, where, name, float(difference[worst]), scales)
         ):
-            result.ill_conditioned += 1
+            if (result.name, probe.trace, probe.step) not in self.excused:
+                self.excused.add((result.name, probe.trace, probe.step))
+                result.ill_conditioned += 1
+                self.excused_plausible[result.name] = self.excused_plausible.get(result.name, 0) + (
+                    probe.trace != "adversarial"
+                )
         elif difference[worst] > limit:
             left, right = check.split(" = ")
             element = f"[{worst}]" if len(difference) > 1 else ""
@@ -612,37 +644,55 @@ class _Lockstep:
                 ),
             )  # fmt: skip
 
-    def _nearby(self, probe: Probe, view: View) -> Iterator[Answer]:
-        """Yield answers from memories that differ in the last place of the checked precision."""
+    def _nearby(self, probe: Probe, view: View, growth: float = 1.0, *, inputs_too: bool = True) -> Iterator[Answer]:
+        """Yield answers from memories (and inputs) that differ in the last places of the checked precision."""
         rng = np.random.default_rng(probe.step)
-        unit = float(np.finfo(self.views.native.precision.dtype).eps)
+        unit = growth * float(np.finfo(self.views.native.precision.dtype).eps)
+
+        def moved(record: Record, choices: tuple[float, float]) -> dict[str, Any]:
+            return {
+                name: value.astype(float) * (1 + unit * rng.choice(choices, size=value.shape))
+                for name, value in flatten(record).items()
+                if value.dtype.kind == "f"
+            }
+
+        params = fill(view.params(), flatten(probe.params))
+        given = fill(view.memory(), flatten(probe.memory))
+        inputs = fill(view.inputs(probe.entry, {}), flatten(probe.inputs))
         for _ in range(6):
-            fields = {}
-            for name, value in flatten(probe.memory).items():
-                if value.dtype.kind == "f":
-                    fields[name] = value.astype(float) * (1 + unit * rng.choice((-1.0, 1.0), size=value.shape))
-            memory = fill(fill(view.memory(), flatten(probe.memory)), fields)
-            inputs = fill(view.inputs(probe.entry, {}), flatten(probe.inputs))
-            yield view.call(probe.entry, memory, inputs, fill(view.params(), flatten(probe.params)))
+            # towards zero where the other way leaves a range: a refusal would say nothing of rounding
+            for choices in ((-1.0, 1.0), (-1.0, 0.0)):
+                memory = fill(given.copy(), moved(probe.memory, choices))
+                shifted = fill(inputs.copy(), moved(probe.inputs, choices)) if inputs_too else inputs
+                answer = view.call(probe.entry, memory, shifted, params)
+                if answer.status >= 0:
+                    break
+            yield answer
 
     def _either_status(self, probe: Probe, statuses: set[Any], witness: View | None) -> bool:
-        """Whether a change in the last place of the memory turns one of two statuses into the other."""
-        view = witness or self.views.reference or self.views.interpret
-        met = {self._all_statuses(probe.entry, answer) for answer in self._nearby(probe, view)}
-        return statuses <= met
+        """Whether a change as large as rounding may grow turns one of two statuses into the other, in any view."""
+        views = [item for item in (witness, self.views.reference, self.views.interpret) if item is not None]
+        for view in views:
+            # the inputs stay: whether they are in range is compared exactly
+            near = self._nearby(probe, view, ROUNDING_GROWTH, inputs_too=False)
+            met = {self._all_statuses(probe.entry, answer) for answer in near}
+            if statuses <= met | {self._all_statuses(probe.entry, self._converted(view, probe))}:
+                return True
+        return False
 
     def _is_rounding(self, probe: Probe, where: str, name: str, difference: float, scales: Mapping[str, Any]) -> bool:
         """Whether a difference is no larger than what rounding of the memory itself causes (an ill-conditioned map)."""
-        view = self.views.reference or self.views.interpret
-        base = self._converted(view, probe)
-        if base.status < 0:
+        views = [view for view in (self.views.reference, self.views.interpret) if view is not None]
+        found = [(view, answer) for view in views if (answer := self._converted(view, probe)).status >= 0]
+        if not found:
             return False
+        view, base = found[0]
         center = flatten(base.memory if where == "memory" else base.outputs)[name].astype(float)
         size = self._size(probe, where, name, center, scales)
         largest = 0.0
         for answer in self._nearby(probe, view):
             if answer.status < 0:
-                return True
+                return True  # refused a rounding away, whichever way: this is a switch
             value = flatten(answer.memory if where == "memory" else answer.outputs)[name].astype(float)
             with np.errstate(all="ignore"):
                 gap = np.abs(value - center) / size
@@ -666,9 +716,13 @@ class _Lockstep:
                 result.note = (
                     f"{result.at_switches} of {result.calls} calls differ in status near a switch, more than 5 %"
                 )
-            if result.calls and result.ill_conditioned > LARGEST_SHARE_AT_SWITCHES * result.calls:
+            # on the adversarial trace states lie at the ends of their ranges: many calls there are ill-conditioned
+            plausible = self.excused_plausible.get(result.name, 0)
+            if plausible > LARGEST_SHARE_AT_SWITCHES * result.calls or result.ill_conditioned > 0.5 * result.calls:
                 result.passed = False
-                result.note = f"{result.ill_conditioned} of {result.calls} values are ill-conditioned, more than 5 %"
+                result.note = (
+                    f"{result.ill_conditioned} of {result.calls} calls are ill-conditioned ({plausible} plausible ones)"
+                )
         names = list(self.pairs.values())
         if self.views.reference is None:
             names.append(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,13 +13,14 @@ from typing import Any
 import jinja2
 
 from ..symbolic.block import Block
+from ..symbolic.errors import ModelError
 from ..symbolic.kernels import AllStatesUpdate
 from ..symbolic.names import why_not_a_name
 from ..symbolic.program import Entry, HoldVariances, walk
 from ..symbolic.signals import STATUS_TEXT, Kind, Signal, Status
 from .layout import default_text, struct_lines
 from .rows import bounded_helper, pair_helpers
-from .style import WIDTH, Precision, comment_lines, wrap_line
+from .style import WIDTH, Precision, comment_lines, comment_safe, wrap_line
 from .writer import CoreWriter, Style, core_name, has_outputs, is_sequenced, needs_params, style_for, wrap_signature
 
 
@@ -79,7 +81,10 @@ def emit(block: Block, precision: str | Precision = "double", style: Style | Non
         The emitter's choices; by default those for the precision.
     """
     kind = precision if isinstance(precision, Precision) else Precision(precision)
-    return _Emitter(block, kind, style or style_for(kind)).text()
+    try:
+        return _Emitter(block, kind, style or style_for(kind)).text()
+    except OverflowError as error:
+        raise ModelError(f"{block.name}: {error}; rescale the units, or export in double") from None
 
 
 class _Emitter:
@@ -110,7 +115,7 @@ class _Emitter:
                 **context,
                 title=self._title(),
                 equations=self._equation_lines(),
-                notes=self.block.notes,
+                notes=[line for note in self.block.notes for line in textwrap.wrap(comment_safe(note), WIDTH - 3)],
                 structs=self._structs(self.block, self.name),
                 default=self._default_macro(),
                 prototypes=self._prototypes(),
@@ -127,13 +132,13 @@ class _Emitter:
 
     def _title(self) -> str:
         kind = "single" if self.precision.is_float else "double"
-        return f"{self.name}: {self.block.doc.rstrip('.') or 'a block'}, in {kind} precision."
+        return f"{self.name}: {comment_safe(self.block.doc).rstrip('.') or 'a block'}, in {kind} precision."
 
     def _equation_lines(self) -> list[str]:
         return [
             line
             for equation in self.block.equations
-            for line in wrap_line(equation.replace("*/", "* /"), " *   ", hanging="      ")
+            for line in wrap_line(comment_safe(equation), " *   ", hanging="      ")
         ]
 
     def _structs(self, block: Block, prefix: str) -> str:
@@ -182,9 +187,9 @@ class _Emitter:
     def _group_type(self, block: Block, signal: Signal, prefix: str) -> str:
         if signal.name in block.parts:
             return f"{prefix}_{signal.name}_step_out_t"
-        for other in block.entries.values():
-            if other.name in (signal.name, f"update_{signal.name}") and other.outputs == signal.members:
-                return f"{prefix}_{other.name}_out_t"
+        for name in (f"update_{signal.name}", signal.name):
+            if name in block.entries and block.entries[name].outputs == signal.members:
+                return f"{prefix}_{name}_out_t"
         raise ValueError(f"no entry gives the group {signal.name!r}")
 
     def _struct(self, name: str, signals: Sequence[Signal], types: dict[str, str], comment: str) -> str:
@@ -225,8 +230,7 @@ class _Emitter:
         for entry in self.block.entries.values():
             note = entry.doc + (" `out` is written when the status is not negative." if has_outputs(entry) else "")
             lines += comment_lines(note.strip(), "") if note.strip() else []
-            signature = wrap_signature(self._public_signature(entry))
-            lines += [*signature[:-1], signature[-1] + ";", ""]
+            lines += [*wrap_signature(self._public_signature(entry) + ";"), ""]
         return "\n".join(lines)
 
     # -- source -------------------------------------------------------------------------------------------------------

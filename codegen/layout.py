@@ -12,7 +12,7 @@ import numpy as np
 from ..symbolic.block import Block
 from ..symbolic.program import Entry
 from ..symbolic.signals import Kind, Signal
-from .style import WIDTH, Precision
+from .style import WIDTH, Precision, comment_lines, comment_safe
 
 
 def dtype_of(signals: tuple[Signal, ...] | list[Signal], precision: Precision) -> np.dtype[Any]:
@@ -124,7 +124,7 @@ def struct_lines(
         kind = base or types[signal.name]
         left = f"    {kind} {signal.name}" + (f"[{signal.size}];" if signal.size > 1 else ";")
         unit = f"[{signal.unit}]" if signal.unit else ""
-        rows.append((left, signal.doc.replace("*/", "* /"), unit, range_text(signal)))
+        rows.append((left, comment_safe(signal.doc), comment_safe(unit), range_text(signal)))
     width = max((len(row[0]) for row in rows), default=0) + 2
     doc_width = min(max((len(row[1]) for row in rows), default=0), 50)
     unit_width = max((len(row[2]) for row in rows), default=0)
@@ -138,7 +138,7 @@ def struct_lines(
         line = f"{left.ljust(width)}/* {note} */" if note else left
         if len(line) > WIDTH:
             short = "  ".join(item for item in (unit, limits) if item)
-            lines.append(f"    /* {doc} */")
+            lines += comment_lines(doc, "    ") if doc else []
             line = f"{left.ljust(width)}/* {short} */" if short else left
         lines.append(line)
     return lines

@@ -22,7 +22,7 @@ from .crosscheck import CheckResult, CrossCheck, Mismatch, cross_check, make_vie
 from .emit import CText, emit, generator_version, templates
 from .layout import default_params
 from .style import Precision
-from .vectors import vectors_source
+from .vectors import vectors_source, wrapped
 from .views import NativeView, View
 
 MEASURED = frozenset({"evidence.json"})
@@ -88,7 +88,7 @@ def build_files(block: Block, precision: str, check: CrossCheck) -> dict[str, st
         f"{name}.h": text.header,
         f"{name}.c": text.source,
         "test_vectors.c": vectors,
-        "example_main.c": main,
+        "example_main.c": wrapped(main),
         "CMakeLists.txt": templates().get_template("CMakeLists.txt.j2").render(**context),
     }
     files["manifest.json"] = json.dumps(_manifest(block, precision, text, files, count), indent=2) + "\n"
@@ -97,7 +97,7 @@ def build_files(block: Block, precision: str, check: CrossCheck) -> dict[str, st
 
 def export(
     block: Block,
-    out: Path,
+    out: Path | str,
     *,
     precision: str = "double",
     steps: int = 100,
@@ -110,7 +110,7 @@ def export(
     ----------
     block : Block
         What to export.
-    out : Path
+    out : Path or str
         Folder that gets a folder named after the block.
     precision : {"double", "float"}
         Type of real numbers in the C.
@@ -147,7 +147,7 @@ def export(
         raise ExportError(failure_text(block, check), check)
     evidence = _evidence(block, precision, check, views.native)
     files["evidence.json"] = json.dumps(evidence, indent=2) + "\n"
-    folder = out / block.name
+    folder = Path(out) / block.name
     write_folder(folder, files)
     return Export(block, precision, folder, files, check, evidence)
 

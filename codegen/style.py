@@ -37,12 +37,12 @@ class Precision:
             with np.errstate(over="ignore"):
                 single = np.float32(value)
             if not np.isfinite(single):
-                raise ValueError(f"{value!r} does not fit into single precision")
+                raise OverflowError(f"the number {value!r} does not fit into single precision")
             text = np.format_float_scientific(single, unique=True, trim="0")
             text = _plain(text, float(single))
             return f"{text}f"
         if not math.isfinite(value):
-            raise ValueError(f"{value!r} cannot be written as a literal")
+            raise OverflowError(f"the number {value!r} cannot be written as a literal")
         return _plain(np.format_float_scientific(value, unique=True, trim="0"), value)
 
     def function(self, name: str) -> str:
@@ -82,9 +82,14 @@ def wrap_line(text: str, indent: str, joint: str = " ", hanging: str = "    ") -
     return lines
 
 
+def comment_safe(text: str) -> str:
+    """Return text that neither ends a comment nor starts another, on one line."""
+    return " ".join(text.replace("*/", "* /").replace("/*", "/ *").split())
+
+
 def comment_lines(text: str, indent: str) -> list[str]:
     """Return a comment, broken into lines of its own where it is long."""
-    clean = text.replace("*/", "* /").replace("/*", "/ *")
+    clean = comment_safe(text)
     whole = f"{indent}/* {clean} */"
     if len(whole) <= WIDTH:
         return [whole]

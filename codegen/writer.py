@@ -174,6 +174,8 @@ class CoreWriter:
             self._copy_field(signal)
         if untouched:
             self._line("")
+        if not self.block.memory_group().members:
+            self._line("after->unused = 0U;")
         if not self.entry.checks_params and not any("before" in line for line in (*self.lines, *text)):
             self._line("(void)before;")
         self.lines += text
@@ -468,7 +470,8 @@ class CoreWriter:
             self._close()
 
     def _hold(self, statement: HoldVariances) -> None:
-        base = self._base(statement.target)
+        # a matrix of one element is a plain number in the struct
+        base = ("&" if statement.size == 1 else "") + self._base(statement.target)
         self._line("")
         self._comment("judge, then commit")
         self._open(f"if (!{self.prefix}_is_bounded({base}))")
@@ -514,11 +517,11 @@ class CoreWriter:
         elements = [node.element for node in nodes if node.operation == "load"]
         if len(elements) == size and elements == [(elements[0][0], k, elements[0][2]) for k in range(size)]:
             return self._base(elements[0][0])
-        self.declared.append(f"{self.precision.name} noise[{size}];")
-        copy = Place("local", "noise")
-        self.inside[copy], self.arrays_inside[copy] = "noise", size
+        self.declared.append(f"{self.precision.name} row_noise[{size}];")
+        copy = Place("local", "row_noise")
+        self.inside[copy], self.arrays_inside[copy] = "row_noise", size
         self._emit([((copy, k), node) for k, node in enumerate(nodes)])
-        return "noise"
+        return "row_noise"
 
     def _scale(self, kernel: Scale) -> None:
         """Write a multiplication of a long vector as a loop."""
@@ -941,5 +944,5 @@ def wrap_signature(text: str) -> list[str]:
 
 
 _RESERVED = frozenset(
-    "before after params out status work latest spare own highest taken i noise spare_covariance".split()
+    "before after params out status work latest spare own highest taken i row_noise spare_covariance".split()
 )

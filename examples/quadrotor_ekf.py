@@ -48,6 +48,7 @@ lift = b1 / mass
 
 quadrotor.dynamics(
     {
+        # cos(roll) on both terms of vx and vy is the paper's (erratum E11); the usual model has it on the second only
         x: vx,
         vx: (sin(yaw) * sin(roll) + cos(yaw) * sin(pitch)) * cos(roll) * lift,
         y: vy,

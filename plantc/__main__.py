@@ -185,8 +185,10 @@ def _derived_text(answer: dict[str, Any]) -> list[str]:
     kind = "discrete" if answer["discrete"] else "continuous"
     lines = [f"{answer['name']} (plant {answer['plant']}, {kind}), states {', '.join(answer['states'])}"]
     for key in "ABCD":
-        matrix = np.array(answer[key])
-        if matrix.size:
+        matrix = np.array(answer[key]) + 0.0  # no minus zero
+        if matrix.size and not matrix.any():
+            lines.append(f"{key} = 0 ({matrix.shape[0]} x {matrix.shape[1]})")
+        elif matrix.size:
             text = np.array2string(matrix, precision=6, suppress_small=True, max_line_width=118, threshold=400)
             lines += [f"{key} =", text]
     values = ", ".join(f"{re:.6g}{im:+.6g}j" if im else f"{re:.6g}" for re, im in answer["eigenvalues"])

@@ -55,6 +55,9 @@ def _where(path: Path, error: BaseException) -> str:
             line = frame.lineno or 0
     if isinstance(error, SyntaxError):
         line = error.lineno or 0
+    if "truth value" in str(error):
+        what = "a symbolic expression was asked whether it is true (by if, and, or, max() ...)"
+        return f"{path}, line {line}: {what}; use if_else, fmin or fmax of plantc.symbolic"
     kind = "" if isinstance(error, ModelError) else f"{type(error).__name__}: "
     return f"{path}, line {line}: {kind}{error}"
 

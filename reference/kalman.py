@@ -200,6 +200,8 @@ class _Filter:
         root = self.require_definite(S, Status.NOT_POSITIVE)  # S = root root'
         whitened = solve_triangular(root, innovation, lower=True, check_finite=False)
         nis = np.sum(whitened * whitened)
+        if not nis <= 1e30:  # or NaN: no answer, and not to be counted as gated
+            raise _Refused(Status.OVERFLOW)
         outputs = {"innovation": innovation, "variance": np.diag(S).copy(), "nis": np.array([nis])}
         counter = f"rejected_{sensor.name}"
         if not (gate <= 0 or nis <= gate):

@@ -15,7 +15,7 @@ from ..reference import estimators as textbook
 from .block import Block, DerivativeCheck, Scenario
 from .discretisation import process_covariance, transition
 from .errors import ModelError
-from .expressions import equation_text, numpy_callable, tape
+from .expressions import equation_text, number_text, numpy_callable, tape
 from .kernels import (
     SMALLEST_VARIANCE,
     AllStatesUpdate,
@@ -27,7 +27,7 @@ from .kernels import (
     RowUpdate,
     Scale,
 )
-from .names import check_name
+from .names import check_unique
 from .plant import HIGHEST_VARIANCE, LOWEST_VARIANCE, Noise, Plant, Sensor, State, Symbol, wrap
 from .program import (
     AllOf,
@@ -56,6 +56,9 @@ from .program import (
 from .signals import Kind, Signal, Status, power_of_unit, spread
 
 Array = NDArray[Any]
+LARGEST_NIS = 1.0e30
+"""A normalised innovation squared beyond it, or NaN, is refused (OVERFLOW): it is no answer, and must not be counted."""
+
 Targets = tuple[tuple[Place, int], ...]
 
 COVARIANCE = Place("memory", "covariance")
@@ -285,6 +288,12 @@ class _Builder:
         plant.dynamics_expression()
         if not plant.sensors:
             raise ModelError(f"{plant.name}: an estimator needs a sensor, and this plant has none; add sensor(...)")
+        used = plant.process_noises + [noise for sensor in plant.sensors for noise in plant.sensor_noises(sensor)]
+        for noise in plant.noises:
+            if all(noise is not item for item in used):
+                raise ModelError(
+                    f"{plant.name}: the noise {noise.signal.name!r} enters neither dynamics nor sensors; use it or leave it out"
+                )
         self.n = plant.error_size
         self.block = Block(name, doc=options.doc)
         self.floor = self._per_error(options.floor, "variance_floor", 1e-30, 1e30)
@@ -344,7 +353,7 @@ class _Builder:
                 attitude = any(state.symbol is symbol and state.attitude for state in self.plant.states)
                 default = (1.0, 0.0, 0.0, 0.0) if attitude else np.clip(0.0, signal.low, signal.high)
                 value = np.asarray(spread(given.get(signal.name, default), signal.size))
-                if value.size != signal.size or np.any(value < signal.low) or np.any(value > signal.high):
+                if value.size != signal.size or not np.all((value >= signal.low) & (value <= signal.high)):
                     raise ModelError(
                         f"{self.options.name}: around= gives {value.tolist()} for {signal.name!r}, outside its range or of "
                         f"another size; its range is {signal.low[0]:g} .. {signal.high[0]:g}"
@@ -779,6 +788,8 @@ class _Builder:
             )
         body += [AllStatesUpdate(tuple(updates))] if whole else updates
         body.append(Refuse(Status.NOT_POSITIVE, _all_above(Place("local", "row_variance"), m, SMALLEST_VARIANCE)))
+        finite = Compare(Element(Place("local", "nis")), "<=", LARGEST_NIS)
+        body.append(Refuse(Status.OVERFLOW, finite))
         body.append(Assign(Place("out", "nis"), Place("local", "nis"), 1))
         gate = Element(Place("in", "gate"))
         accepted = AnyOf((Compare(gate, "<=", 0.0), Compare(Element(Place("local", "nis")), "<=", gate)))
@@ -930,9 +941,12 @@ class _Builder:
         block.notes = self._notes()
         block.source_hash = plant.fingerprint()
         block.float_bound = self.options.float_bound
-        for noise in plant.noises:
-            check_name("noise", noise.signal.name, block.name)
         block.check()
+        check_unique(
+            [(s.name, f"the field {s.name!r}") for s in (*block.memory_signals, *block.param_signals)]
+            + [(s.signal.name, f"the input or sensor {s.signal.name!r}") for s in (*plant.inputs, *plant.sensors)],
+            block.name,
+        )
         model = self._textbook_model(measurements)
         block.oracle = textbook.KalmanOracle(model)
         block.scenario = self._scenario(model)
@@ -942,6 +956,15 @@ class _Builder:
     def _notes(self) -> list[str]:
         made = self.plant.discretisation
         lines = []
+        if self.plant.constants:
+            named = [
+                f"{c.signal.name} = {', '.join(number_text(item) for item in c.signal.default or ())}"
+                + (f" {c.signal.unit}" if c.signal.unit else "")
+                for c in self.plant.constants
+            ]
+            lines.append(f"Constants: {'; '.join(named)}.")
+        if isinstance(self.plant.dt, float):
+            lines.append(f"dt = {number_text(self.plant.dt)} s.")
         if made is not None:
             lines.append(
                 f"Discretised by {made.method}" + (f" in {made.substeps} substeps." if made.substeps > 1 else ".")

@@ -242,12 +242,13 @@ _NUMPY: dict[str, Any] = {
     "_exp": np.exp,
     "_log": np.log,
     "_pow": np.power,
-    "_fabs": lambda x: np.where(np.real(x) < 0, -x, x),
+    "_fabs": lambda x: np.sign(np.real(x)) * x,
     "_sign": lambda x: np.sign(np.real(x)),
     "_floor": lambda x: np.floor(np.real(x)),
     "_ceil": lambda x: np.ceil(np.real(x)),
-    "_fmin": lambda a, b: np.where(np.real(a) < np.real(b), a, b),
-    "_fmax": lambda a, b: np.where(np.real(a) > np.real(b), a, b),
+    # at a tie the derivative is the mean of both sides, as CasADi's is
+    "_fmin": lambda a, b: np.where(np.real(a) == np.real(b), (a + b) / 2, np.where(np.real(a) < np.real(b), a, b)),
+    "_fmax": lambda a, b: np.where(np.real(a) == np.real(b), (a + b) / 2, np.where(np.real(a) > np.real(b), a, b)),
 }
 
 _INFIX_NUMPY = {

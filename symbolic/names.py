@@ -39,7 +39,12 @@ _FUNCTIONS_THE_C_CALLS = frozenset(
     """.split()
 )
 
-_WORDS_OF_THE_GENERATED_C = frozenset("before after params in out state status answer latest spare gate".split())
+_WORDS_OF_THE_GENERATED_C = frozenset(
+    """
+    before after params in out state status answer latest spare gate work own highest taken i delta nis row_variance
+    row_noise spare_covariance covariance white_residual white_h white_r
+    """.split()
+)
 
 _ARDUINO_BINARY_CONSTANT = re.compile(r"B[01]{1,8}")
 _IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -59,7 +64,9 @@ def why_not_a_name(name: str) -> str | None:
         return "is a keyword of C or C++"
     if name in _MACROS or _ARDUINO_BINARY_CONSTANT.fullmatch(name):
         return "is a macro in common C headers, which would replace it"
-    if name in _FUNCTIONS_THE_C_CALLS:
+    if re.fullmatch(r"U?INT\w*_(MAX|MIN|C)", name):
+        return "is a macro of <stdint.h>"
+    if name in _FUNCTIONS_THE_C_CALLS or (name.endswith("f") and name[:-1] in _FUNCTIONS_THE_C_CALLS):
         return "is a function that the generated C calls"
     if name in _WORDS_OF_THE_GENERATED_C:
         return "is a word that the generated C uses itself"

@@ -16,7 +16,7 @@ from . import quaternions
 from .errors import ModelError
 from .expressions import constants_of, expand
 from .names import check_name
-from .signals import WIDE, WRAPPED, Kind, Signal, check_default, make_range, spread
+from .signals import WIDE, WRAPPED, Kind, Signal, check_default, make_range, same_unit, spread
 
 HIGHEST_VARIANCE = 1.0e6
 LOWEST_VARIANCE = 1.0e-12
@@ -360,6 +360,13 @@ class Plant:
             raise ModelError(
                 f"{self.name}: {what} has no noise; give variance= or std=, or use a noise in its expression"
             )
+        for symbol in (*[state.symbol for state in self.states], *self.inputs):
+            exact = size == symbol.signal.size and ca.is_equal(h, ca.SX(symbol), 0)
+            if exact and not same_unit(symbol.signal.unit, unit):
+                raise ModelError(
+                    f"{self.name}: {what} is in [{unit}], but reads {symbol.signal.name!r}, which is in [{symbol.signal.unit}]; "
+                    "convert the expression, or mend the unit"
+                )
         strength, full, symbolic = None, False, None
         value, keyword = (variance, "variance") if std is None else (std, "std")
         self._own(measurement)
@@ -749,6 +756,8 @@ class Plant:
             raise ModelError(f"{self.name}: the name {name!r} is used twice; give this {kind} another")
         if not isinstance(size, int) or size < 1:
             raise ModelError(f"{self.name}: the {kind} {name!r} has size {size!r}; give a positive integer")
+        if not isinstance(unit, str):
+            raise ModelError(f"{self.name}: the unit of the {kind} {name!r} is {unit!r}; give it as text")
         if name == "dt":
             raise ModelError(f"{self.name}: the name 'dt' is the time step's; call this {kind} something else")
         low, high = make_range(self.name, f"{kind} {name!r}", given, default, size)
@@ -793,7 +802,10 @@ class Plant:
                 )
         for number in constants_of(expression):
             if not math.isfinite(number):
-                raise ModelError(f"{self.name}: {what} holds the number {number}; every number must be finite")
+                raise ModelError(
+                    f"{self.name}: {what} holds the number {number}; every number must be finite "
+                    "(math.sin of a symbol gives nan: use sin of plantc.symbolic)"
+                )
         return expression
 
     def _key(self, what: str, key: Any) -> str:
@@ -824,8 +836,15 @@ class Plant:
                     f"{self.name}: the noise {name!r} has a variance per step, but the dynamics are continuous; give "
                     "density= (unit^2/Hz), or add step_noise to the discrete plant"
                 )
+        taken: dict[str, str] = {}
         for sensor in self.sensors:
             for noise in self.sensor_noises(sensor):
+                other = taken.setdefault(noise.signal.name, sensor.signal.name)
+                if other != sensor.signal.name:
+                    raise ModelError(
+                        f"{self.name}: the noise {noise.signal.name!r} enters the sensors {other!r} and {sensor.signal.name!r}; "
+                        "correlated sensors must be one vector sensor, or use two noises"
+                    )
                 if noise in used_in_dynamics:
                     raise ModelError(
                         f"{self.name}: the noise {noise.signal.name!r} enters the dynamics and the sensor "
@@ -887,6 +906,7 @@ def noise_matrix(
             raise ModelError(
                 f"{owner}: the {keyword} of {what} is not positive definite (smallest eigenvalue {lowest:g}); mend the matrix"
             )
+    matrix = np.array([[float(f"{item:.15g}") for item in row] for row in matrix])  # 0.1**2 is 0.01
     peak = float(np.max(np.diag(matrix)))
     if peak > HIGHEST_VARIANCE or float(np.min(np.diag(matrix))) < at_least:
         raise ModelError(

@@ -44,7 +44,7 @@ STATUS_TEXT = {
     Status.RECOVERED: "gated too often in a row: P inflated, reading taken without gate",
     Status.BAD_INPUT: "an input is outside its range, or not a number",
     Status.BAD_PARAM: "a parameter is outside its range, or not a number",
-    Status.NOT_POSITIVE: "a variance would be negative, or of an innovation not positive",
+    Status.NOT_POSITIVE: "a variance would not be positive",
     Status.OVERFLOW: "the result would leave its range",
 }
 

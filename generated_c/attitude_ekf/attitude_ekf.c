@@ -1,4 +1,4 @@
-/* attitude_ekf: see attitude_ekf.h. Written by plantc 0.1.0 from model 057ccd77. */
+/* attitude_ekf: see attitude_ekf.h. Written by plantc 0.1.0 from model 68f88410. */
 #include "attitude_ekf.h"
 
 #include <math.h>
@@ -676,115 +676,123 @@ static attitude_ekf_status_t attitude_ekf_update_accelerometer_core(const attitu
         }
         else
         {
-            out->nis = nis[0];
-
-            /* accepted? */
-            if ((gate <= 0.0f) || (nis[0] <= gate))
+            if (!(nis[0] <= 1.0e30f))
             {
-                /* x = x + d, attitudes turned by exp(d); the error is now counted from there: P = G P G' */
-                const float delta_0 = delta[0];
-                const float delta_1 = delta[1];
-                const float delta_2 = delta[2];
-                const float v_21 = sqrtf(1.0e-20f + (((delta_0 * delta_0) + (delta_1 * delta_1)) + (delta_2 *
-                    delta_2)));
-                const float v_22 = 0.5f * v_21;
-                const float v_23 = cosf(v_22);
-                const float v_24 = sinf(v_22) / v_21;
-                const float v_25 = delta_0 * v_24;
-                const float v_26 = delta_1 * v_24;
-                const float v_27 = delta_2 * v_24;
-                const float v_28 = (((q_0 * v_23) - (q_1 * v_25)) - (q_2 * v_26)) - (q_3 * v_27);
-                const float v_29 = (((q_0 * v_25) + (q_1 * v_23)) + (q_2 * v_27)) - (q_3 * v_26);
-                const float v_30 = (((q_0 * v_26) - (q_1 * v_27)) + (q_2 * v_23)) + (q_3 * v_25);
-                const float v_31 = (((q_0 * v_27) + (q_1 * v_26)) - (q_2 * v_25)) + (q_3 * v_23);
-                const float v_32 = 1.5f - (0.5f * ((((v_28 * v_28) + (v_29 * v_29)) + (v_30 * v_30)) + (v_31 * v_31)));
-                after->q[0] = v_28 * v_32;
-                after->q[1] = v_29 * v_32;
-                after->q[2] = v_30 * v_32;
-                after->q[3] = v_31 * v_32;
-                after->bias[0] = before->bias[0] + delta[3];
-                after->bias[1] = before->bias[1] + delta[4];
-                after->bias[2] = before->bias[2] + delta[5];
-                const float g_0_1 = 0.5f * delta_2;
-                const float g_2_0 = 0.5f * delta_1;
-                const float g_0_2 = -g_2_0;
-                const float g_1_0 = -g_0_1;
-                const float g_1_2 = 0.5f * delta_0;
-                const float g_2_1 = -g_1_2;
-
-                /* P = G P G', G = I - [d]x / 2 for an attitude */
-                {
-                    const float p_2_2 = after->covariance[11];
-                    const float p_0_2 = after->covariance[2];
-                    const float p_1_2 = after->covariance[7];
-                    const float v_33 = (g_0_2 * p_2_2) + (p_0_2 + (g_0_1 * p_1_2));
-                    const float p_0_0 = after->covariance[0];
-                    const float p_0_1 = after->covariance[1];
-                    const float v_34 = (g_0_2 * p_0_2) + (p_0_0 + (g_0_1 * p_0_1));
-                    const float p_1_1 = after->covariance[6];
-                    const float v_35 = (g_0_2 * p_1_2) + (p_0_1 + (g_0_1 * p_1_1));
-                    after->covariance[0] = (g_0_2 * v_33) + (v_34 + (g_0_1 * v_35));
-                    after->covariance[1] = (g_1_2 * v_33) + (v_35 + (g_1_0 * v_34));
-                    after->covariance[2] = (g_2_1 * v_35) + (v_33 + (g_2_0 * v_34));
-                    const float p_2_3 = after->covariance[12];
-                    const float p_0_3 = after->covariance[3];
-                    const float p_1_3 = after->covariance[8];
-                    after->covariance[3] = (g_0_2 * p_2_3) + (p_0_3 + (g_0_1 * p_1_3));
-                    const float p_2_4 = after->covariance[13];
-                    const float p_0_4 = after->covariance[4];
-                    const float p_1_4 = after->covariance[9];
-                    after->covariance[4] = (g_0_2 * p_2_4) + (p_0_4 + (g_0_1 * p_1_4));
-                    const float p_2_5 = after->covariance[14];
-                    const float p_0_5 = after->covariance[5];
-                    const float p_1_5 = after->covariance[10];
-                    after->covariance[5] = (g_0_2 * p_2_5) + (p_0_5 + (g_0_1 * p_1_5));
-                    const float v_36 = (g_1_2 * p_2_2) + (p_1_2 + (g_1_0 * p_0_2));
-                    const float v_37 = (g_1_2 * p_1_2) + (p_1_1 + (g_1_0 * p_0_1));
-                    const float v_38 = (g_1_2 * p_0_2) + (p_0_1 + (g_1_0 * p_0_0));
-                    after->covariance[6] = (g_1_2 * v_36) + (v_37 + (g_1_0 * v_38));
-                    after->covariance[7] = (g_2_1 * v_37) + (v_36 + (g_2_0 * v_38));
-                    after->covariance[8] = (g_1_2 * p_2_3) + (p_1_3 + (g_1_0 * p_0_3));
-                    after->covariance[9] = (g_1_2 * p_2_4) + (p_1_4 + (g_1_0 * p_0_4));
-                    after->covariance[10] = (g_1_2 * p_2_5) + (p_1_5 + (g_1_0 * p_0_5));
-                    const float v_39 = ((g_2_1 * p_1_2) + (p_2_2 + (g_2_0 * p_0_2))) + (g_2_0 * ((g_2_1 * p_0_1) +
-                        (p_0_2 + (g_2_0 * p_0_0))));
-                    after->covariance[11] = (g_2_1 * ((g_2_1 * p_1_1) + (p_1_2 + (g_2_0 * p_0_1)))) + v_39;
-                    after->covariance[12] = (g_2_1 * p_1_3) + (p_2_3 + (g_2_0 * p_0_3));
-                    after->covariance[13] = (g_2_1 * p_1_4) + (p_2_4 + (g_2_0 * p_0_4));
-                    after->covariance[14] = (g_2_1 * p_1_5) + (p_2_5 + (g_2_0 * p_0_5));
-                    after->covariance[15] = after->covariance[15];
-                    after->covariance[16] = after->covariance[16];
-                    after->covariance[17] = after->covariance[17];
-                    after->covariance[18] = after->covariance[18];
-                    after->covariance[19] = after->covariance[19];
-                    after->covariance[20] = after->covariance[20];
-                }
-                after->rejected_accelerometer = 0U;
-
-                /* judge, then commit */
-                if (!attitude_ekf_is_bounded(after->covariance))
-                {
-                    status = attitude_ekf_hold_variances(after->covariance);
-                }
-                if (status >= ATTITUDE_EKF_OK)
-                {
-                    if (!((fabsf(after->q[0]) <= 1.01f) && (fabsf(after->q[1]) <= 1.01f)
-                          && (fabsf(after->q[2]) <= 1.01f) && (fabsf(after->q[3]) <= 1.01f)
-                          && (fabsf(after->bias[0]) <= 1.0f) && (fabsf(after->bias[1]) <= 1.0f)
-                          && (fabsf(after->bias[2]) <= 1.0f)))
-                    {
-                        status = ATTITUDE_EKF_OVERFLOW;
-                    }
-                }
+                status = ATTITUDE_EKF_OVERFLOW;
             }
             else
             {
-                *after = *before;
-                if (after->rejected_accelerometer < UINT32_MAX)
+                out->nis = nis[0];
+
+                /* accepted? */
+                if ((gate <= 0.0f) || (nis[0] <= gate))
                 {
-                    after->rejected_accelerometer = after->rejected_accelerometer + 1U;
+                    /* x = x + d, attitudes turned by exp(d); the error is now counted from there: P = G P G' */
+                    const float delta_0 = delta[0];
+                    const float delta_1 = delta[1];
+                    const float delta_2 = delta[2];
+                    const float v_21 = sqrtf(1.0e-20f + (((delta_0 * delta_0) + (delta_1 * delta_1)) + (delta_2 *
+                        delta_2)));
+                    const float v_22 = 0.5f * v_21;
+                    const float v_23 = cosf(v_22);
+                    const float v_24 = sinf(v_22) / v_21;
+                    const float v_25 = delta_0 * v_24;
+                    const float v_26 = delta_1 * v_24;
+                    const float v_27 = delta_2 * v_24;
+                    const float v_28 = (((q_0 * v_23) - (q_1 * v_25)) - (q_2 * v_26)) - (q_3 * v_27);
+                    const float v_29 = (((q_0 * v_25) + (q_1 * v_23)) + (q_2 * v_27)) - (q_3 * v_26);
+                    const float v_30 = (((q_0 * v_26) - (q_1 * v_27)) + (q_2 * v_23)) + (q_3 * v_25);
+                    const float v_31 = (((q_0 * v_27) + (q_1 * v_26)) - (q_2 * v_25)) + (q_3 * v_23);
+                    const float v_32 = 1.5f - (0.5f * ((((v_28 * v_28) + (v_29 * v_29)) + (v_30 * v_30)) + (v_31 *
+                        v_31)));
+                    after->q[0] = v_28 * v_32;
+                    after->q[1] = v_29 * v_32;
+                    after->q[2] = v_30 * v_32;
+                    after->q[3] = v_31 * v_32;
+                    after->bias[0] = before->bias[0] + delta[3];
+                    after->bias[1] = before->bias[1] + delta[4];
+                    after->bias[2] = before->bias[2] + delta[5];
+                    const float g_0_1 = 0.5f * delta_2;
+                    const float g_2_0 = 0.5f * delta_1;
+                    const float g_0_2 = -g_2_0;
+                    const float g_1_0 = -g_0_1;
+                    const float g_1_2 = 0.5f * delta_0;
+                    const float g_2_1 = -g_1_2;
+
+                    /* P = G P G', G = I - [d]x / 2 for an attitude */
+                    {
+                        const float p_2_2 = after->covariance[11];
+                        const float p_0_2 = after->covariance[2];
+                        const float p_1_2 = after->covariance[7];
+                        const float v_33 = (g_0_2 * p_2_2) + (p_0_2 + (g_0_1 * p_1_2));
+                        const float p_0_0 = after->covariance[0];
+                        const float p_0_1 = after->covariance[1];
+                        const float v_34 = (g_0_2 * p_0_2) + (p_0_0 + (g_0_1 * p_0_1));
+                        const float p_1_1 = after->covariance[6];
+                        const float v_35 = (g_0_2 * p_1_2) + (p_0_1 + (g_0_1 * p_1_1));
+                        after->covariance[0] = (g_0_2 * v_33) + (v_34 + (g_0_1 * v_35));
+                        after->covariance[1] = (g_1_2 * v_33) + (v_35 + (g_1_0 * v_34));
+                        after->covariance[2] = (g_2_1 * v_35) + (v_33 + (g_2_0 * v_34));
+                        const float p_2_3 = after->covariance[12];
+                        const float p_0_3 = after->covariance[3];
+                        const float p_1_3 = after->covariance[8];
+                        after->covariance[3] = (g_0_2 * p_2_3) + (p_0_3 + (g_0_1 * p_1_3));
+                        const float p_2_4 = after->covariance[13];
+                        const float p_0_4 = after->covariance[4];
+                        const float p_1_4 = after->covariance[9];
+                        after->covariance[4] = (g_0_2 * p_2_4) + (p_0_4 + (g_0_1 * p_1_4));
+                        const float p_2_5 = after->covariance[14];
+                        const float p_0_5 = after->covariance[5];
+                        const float p_1_5 = after->covariance[10];
+                        after->covariance[5] = (g_0_2 * p_2_5) + (p_0_5 + (g_0_1 * p_1_5));
+                        const float v_36 = (g_1_2 * p_2_2) + (p_1_2 + (g_1_0 * p_0_2));
+                        const float v_37 = (g_1_2 * p_1_2) + (p_1_1 + (g_1_0 * p_0_1));
+                        const float v_38 = (g_1_2 * p_0_2) + (p_0_1 + (g_1_0 * p_0_0));
+                        after->covariance[6] = (g_1_2 * v_36) + (v_37 + (g_1_0 * v_38));
+                        after->covariance[7] = (g_2_1 * v_37) + (v_36 + (g_2_0 * v_38));
+                        after->covariance[8] = (g_1_2 * p_2_3) + (p_1_3 + (g_1_0 * p_0_3));
+                        after->covariance[9] = (g_1_2 * p_2_4) + (p_1_4 + (g_1_0 * p_0_4));
+                        after->covariance[10] = (g_1_2 * p_2_5) + (p_1_5 + (g_1_0 * p_0_5));
+                        const float v_39 = ((g_2_1 * p_1_2) + (p_2_2 + (g_2_0 * p_0_2))) + (g_2_0 * ((g_2_1 * p_0_1) +
+                            (p_0_2 + (g_2_0 * p_0_0))));
+                        after->covariance[11] = (g_2_1 * ((g_2_1 * p_1_1) + (p_1_2 + (g_2_0 * p_0_1)))) + v_39;
+                        after->covariance[12] = (g_2_1 * p_1_3) + (p_2_3 + (g_2_0 * p_0_3));
+                        after->covariance[13] = (g_2_1 * p_1_4) + (p_2_4 + (g_2_0 * p_0_4));
+                        after->covariance[14] = (g_2_1 * p_1_5) + (p_2_5 + (g_2_0 * p_0_5));
+                        after->covariance[15] = after->covariance[15];
+                        after->covariance[16] = after->covariance[16];
+                        after->covariance[17] = after->covariance[17];
+                        after->covariance[18] = after->covariance[18];
+                        after->covariance[19] = after->covariance[19];
+                        after->covariance[20] = after->covariance[20];
+                    }
+                    after->rejected_accelerometer = 0U;
+
+                    /* judge, then commit */
+                    if (!attitude_ekf_is_bounded(after->covariance))
+                    {
+                        status = attitude_ekf_hold_variances(after->covariance);
+                    }
+                    if (status >= ATTITUDE_EKF_OK)
+                    {
+                        if (!((fabsf(after->q[0]) <= 1.01f) && (fabsf(after->q[1]) <= 1.01f)
+                              && (fabsf(after->q[2]) <= 1.01f) && (fabsf(after->q[3]) <= 1.01f)
+                              && (fabsf(after->bias[0]) <= 1.0f) && (fabsf(after->bias[1]) <= 1.0f)
+                              && (fabsf(after->bias[2]) <= 1.0f)))
+                        {
+                            status = ATTITUDE_EKF_OVERFLOW;
+                        }
+                    }
                 }
-                status = attitude_ekf_higher(status, ATTITUDE_EKF_GATED);
+                else
+                {
+                    *after = *before;
+                    if (after->rejected_accelerometer < UINT32_MAX)
+                    {
+                        after->rejected_accelerometer = after->rejected_accelerometer + 1U;
+                    }
+                    status = attitude_ekf_higher(status, ATTITUDE_EKF_GATED);
+                }
             }
         }
     }
@@ -1035,115 +1043,123 @@ static attitude_ekf_status_t attitude_ekf_update_magnetometer_core(const attitud
         }
         else
         {
-            out->nis = nis[0];
-
-            /* accepted? */
-            if ((gate <= 0.0f) || (nis[0] <= gate))
+            if (!(nis[0] <= 1.0e30f))
             {
-                /* x = x + d, attitudes turned by exp(d); the error is now counted from there: P = G P G' */
-                const float delta_0 = delta[0];
-                const float delta_1 = delta[1];
-                const float delta_2 = delta[2];
-                const float v_30 = sqrtf(1.0e-20f + (((delta_0 * delta_0) + (delta_1 * delta_1)) + (delta_2 *
-                    delta_2)));
-                const float v_31 = 0.5f * v_30;
-                const float v_32 = cosf(v_31);
-                const float v_33 = sinf(v_31) / v_30;
-                const float v_34 = delta_0 * v_33;
-                const float v_35 = delta_1 * v_33;
-                const float v_36 = delta_2 * v_33;
-                const float v_37 = (((q_0 * v_32) - (q_1 * v_34)) - (q_2 * v_35)) - (q_3 * v_36);
-                const float v_38 = (((q_0 * v_34) + (q_1 * v_32)) + (q_2 * v_36)) - (q_3 * v_35);
-                const float v_39 = (((q_0 * v_35) - (q_1 * v_36)) + (q_2 * v_32)) + (q_3 * v_34);
-                const float v_40 = (((q_0 * v_36) + (q_1 * v_35)) - (q_2 * v_34)) + (q_3 * v_32);
-                const float v_41 = 1.5f - (0.5f * ((((v_37 * v_37) + (v_38 * v_38)) + (v_39 * v_39)) + (v_40 * v_40)));
-                after->q[0] = v_37 * v_41;
-                after->q[1] = v_38 * v_41;
-                after->q[2] = v_39 * v_41;
-                after->q[3] = v_40 * v_41;
-                after->bias[0] = before->bias[0] + delta[3];
-                after->bias[1] = before->bias[1] + delta[4];
-                after->bias[2] = before->bias[2] + delta[5];
-                const float g_0_1 = 0.5f * delta_2;
-                const float g_2_0 = 0.5f * delta_1;
-                const float g_0_2 = -g_2_0;
-                const float g_1_0 = -g_0_1;
-                const float g_1_2 = 0.5f * delta_0;
-                const float g_2_1 = -g_1_2;
-
-                /* P = G P G', G = I - [d]x / 2 for an attitude */
-                {
-                    const float p_2_2 = after->covariance[11];
-                    const float p_0_2 = after->covariance[2];
-                    const float p_1_2 = after->covariance[7];
-                    const float v_42 = (g_0_2 * p_2_2) + (p_0_2 + (g_0_1 * p_1_2));
-                    const float p_0_0 = after->covariance[0];
-                    const float p_0_1 = after->covariance[1];
-                    const float v_43 = (g_0_2 * p_0_2) + (p_0_0 + (g_0_1 * p_0_1));
-                    const float p_1_1 = after->covariance[6];
-                    const float v_44 = (g_0_2 * p_1_2) + (p_0_1 + (g_0_1 * p_1_1));
-                    after->covariance[0] = (g_0_2 * v_42) + (v_43 + (g_0_1 * v_44));
-                    after->covariance[1] = (g_1_2 * v_42) + (v_44 + (g_1_0 * v_43));
-                    after->covariance[2] = (g_2_1 * v_44) + (v_42 + (g_2_0 * v_43));
-                    const float p_2_3 = after->covariance[12];
-                    const float p_0_3 = after->covariance[3];
-                    const float p_1_3 = after->covariance[8];
-                    after->covariance[3] = (g_0_2 * p_2_3) + (p_0_3 + (g_0_1 * p_1_3));
-                    const float p_2_4 = after->covariance[13];
-                    const float p_0_4 = after->covariance[4];
-                    const float p_1_4 = after->covariance[9];
-                    after->covariance[4] = (g_0_2 * p_2_4) + (p_0_4 + (g_0_1 * p_1_4));
-                    const float p_2_5 = after->covariance[14];
-                    const float p_0_5 = after->covariance[5];
-                    const float p_1_5 = after->covariance[10];
-                    after->covariance[5] = (g_0_2 * p_2_5) + (p_0_5 + (g_0_1 * p_1_5));
-                    const float v_45 = (g_1_2 * p_2_2) + (p_1_2 + (g_1_0 * p_0_2));
-                    const float v_46 = (g_1_2 * p_1_2) + (p_1_1 + (g_1_0 * p_0_1));
-                    const float v_47 = (g_1_2 * p_0_2) + (p_0_1 + (g_1_0 * p_0_0));
-                    after->covariance[6] = (g_1_2 * v_45) + (v_46 + (g_1_0 * v_47));
-                    after->covariance[7] = (g_2_1 * v_46) + (v_45 + (g_2_0 * v_47));
-                    after->covariance[8] = (g_1_2 * p_2_3) + (p_1_3 + (g_1_0 * p_0_3));
-                    after->covariance[9] = (g_1_2 * p_2_4) + (p_1_4 + (g_1_0 * p_0_4));
-                    after->covariance[10] = (g_1_2 * p_2_5) + (p_1_5 + (g_1_0 * p_0_5));
-                    const float v_48 = ((g_2_1 * p_1_2) + (p_2_2 + (g_2_0 * p_0_2))) + (g_2_0 * ((g_2_1 * p_0_1) +
-                        (p_0_2 + (g_2_0 * p_0_0))));
-                    after->covariance[11] = (g_2_1 * ((g_2_1 * p_1_1) + (p_1_2 + (g_2_0 * p_0_1)))) + v_48;
-                    after->covariance[12] = (g_2_1 * p_1_3) + (p_2_3 + (g_2_0 * p_0_3));
-                    after->covariance[13] = (g_2_1 * p_1_4) + (p_2_4 + (g_2_0 * p_0_4));
-                    after->covariance[14] = (g_2_1 * p_1_5) + (p_2_5 + (g_2_0 * p_0_5));
-                    after->covariance[15] = after->covariance[15];
-                    after->covariance[16] = after->covariance[16];
-                    after->covariance[17] = after->covariance[17];
-                    after->covariance[18] = after->covariance[18];
-                    after->covariance[19] = after->covariance[19];
-                    after->covariance[20] = after->covariance[20];
-                }
-                after->rejected_magnetometer = 0U;
-
-                /* judge, then commit */
-                if (!attitude_ekf_is_bounded(after->covariance))
-                {
-                    status = attitude_ekf_hold_variances(after->covariance);
-                }
-                if (status >= ATTITUDE_EKF_OK)
-                {
-                    if (!((fabsf(after->q[0]) <= 1.01f) && (fabsf(after->q[1]) <= 1.01f)
-                          && (fabsf(after->q[2]) <= 1.01f) && (fabsf(after->q[3]) <= 1.01f)
-                          && (fabsf(after->bias[0]) <= 1.0f) && (fabsf(after->bias[1]) <= 1.0f)
-                          && (fabsf(after->bias[2]) <= 1.0f)))
-                    {
-                        status = ATTITUDE_EKF_OVERFLOW;
-                    }
-                }
+                status = ATTITUDE_EKF_OVERFLOW;
             }
             else
             {
-                *after = *before;
-                if (after->rejected_magnetometer < UINT32_MAX)
+                out->nis = nis[0];
+
+                /* accepted? */
+                if ((gate <= 0.0f) || (nis[0] <= gate))
                 {
-                    after->rejected_magnetometer = after->rejected_magnetometer + 1U;
+                    /* x = x + d, attitudes turned by exp(d); the error is now counted from there: P = G P G' */
+                    const float delta_0 = delta[0];
+                    const float delta_1 = delta[1];
+                    const float delta_2 = delta[2];
+                    const float v_30 = sqrtf(1.0e-20f + (((delta_0 * delta_0) + (delta_1 * delta_1)) + (delta_2 *
+                        delta_2)));
+                    const float v_31 = 0.5f * v_30;
+                    const float v_32 = cosf(v_31);
+                    const float v_33 = sinf(v_31) / v_30;
+                    const float v_34 = delta_0 * v_33;
+                    const float v_35 = delta_1 * v_33;
+                    const float v_36 = delta_2 * v_33;
+                    const float v_37 = (((q_0 * v_32) - (q_1 * v_34)) - (q_2 * v_35)) - (q_3 * v_36);
+                    const float v_38 = (((q_0 * v_34) + (q_1 * v_32)) + (q_2 * v_36)) - (q_3 * v_35);
+                    const float v_39 = (((q_0 * v_35) - (q_1 * v_36)) + (q_2 * v_32)) + (q_3 * v_34);
+                    const float v_40 = (((q_0 * v_36) + (q_1 * v_35)) - (q_2 * v_34)) + (q_3 * v_32);
+                    const float v_41 = 1.5f - (0.5f * ((((v_37 * v_37) + (v_38 * v_38)) + (v_39 * v_39)) + (v_40 *
+                        v_40)));
+                    after->q[0] = v_37 * v_41;
+                    after->q[1] = v_38 * v_41;
+                    after->q[2] = v_39 * v_41;
+                    after->q[3] = v_40 * v_41;
+                    after->bias[0] = before->bias[0] + delta[3];
+                    after->bias[1] = before->bias[1] + delta[4];
+                    after->bias[2] = before->bias[2] + delta[5];
+                    const float g_0_1 = 0.5f * delta_2;
+                    const float g_2_0 = 0.5f * delta_1;
+                    const float g_0_2 = -g_2_0;
+                    const float g_1_0 = -g_0_1;
+                    const float g_1_2 = 0.5f * delta_0;
+                    const float g_2_1 = -g_1_2;
+
+                    /* P = G P G', G = I - [d]x / 2 for an attitude */
+                    {
+                        const float p_2_2 = after->covariance[11];
+                        const float p_0_2 = after->covariance[2];
+                        const float p_1_2 = after->covariance[7];
+                        const float v_42 = (g_0_2 * p_2_2) + (p_0_2 + (g_0_1 * p_1_2));
+                        const float p_0_0 = after->covariance[0];
+                        const float p_0_1 = after->covariance[1];
+                        const float v_43 = (g_0_2 * p_0_2) + (p_0_0 + (g_0_1 * p_0_1));
+                        const float p_1_1 = after->covariance[6];
+                        const float v_44 = (g_0_2 * p_1_2) + (p_0_1 + (g_0_1 * p_1_1));
+                        after->covariance[0] = (g_0_2 * v_42) + (v_43 + (g_0_1 * v_44));
+                        after->covariance[1] = (g_1_2 * v_42) + (v_44 + (g_1_0 * v_43));
+                        after->covariance[2] = (g_2_1 * v_44) + (v_42 + (g_2_0 * v_43));
+                        const float p_2_3 = after->covariance[12];
+                        const float p_0_3 = after->covariance[3];
+                        const float p_1_3 = after->covariance[8];
+                        after->covariance[3] = (g_0_2 * p_2_3) + (p_0_3 + (g_0_1 * p_1_3));
+                        const float p_2_4 = after->covariance[13];
+                        const float p_0_4 = after->covariance[4];
+                        const float p_1_4 = after->covariance[9];
+                        after->covariance[4] = (g_0_2 * p_2_4) + (p_0_4 + (g_0_1 * p_1_4));
+                        const float p_2_5 = after->covariance[14];
+                        const float p_0_5 = after->covariance[5];
+                        const float p_1_5 = after->covariance[10];
+                        after->covariance[5] = (g_0_2 * p_2_5) + (p_0_5 + (g_0_1 * p_1_5));
+                        const float v_45 = (g_1_2 * p_2_2) + (p_1_2 + (g_1_0 * p_0_2));
+                        const float v_46 = (g_1_2 * p_1_2) + (p_1_1 + (g_1_0 * p_0_1));
+                        const float v_47 = (g_1_2 * p_0_2) + (p_0_1 + (g_1_0 * p_0_0));
+                        after->covariance[6] = (g_1_2 * v_45) + (v_46 + (g_1_0 * v_47));
+                        after->covariance[7] = (g_2_1 * v_46) + (v_45 + (g_2_0 * v_47));
+                        after->covariance[8] = (g_1_2 * p_2_3) + (p_1_3 + (g_1_0 * p_0_3));
+                        after->covariance[9] = (g_1_2 * p_2_4) + (p_1_4 + (g_1_0 * p_0_4));
+                        after->covariance[10] = (g_1_2 * p_2_5) + (p_1_5 + (g_1_0 * p_0_5));
+                        const float v_48 = ((g_2_1 * p_1_2) + (p_2_2 + (g_2_0 * p_0_2))) + (g_2_0 * ((g_2_1 * p_0_1) +
+                            (p_0_2 + (g_2_0 * p_0_0))));
+                        after->covariance[11] = (g_2_1 * ((g_2_1 * p_1_1) + (p_1_2 + (g_2_0 * p_0_1)))) + v_48;
+                        after->covariance[12] = (g_2_1 * p_1_3) + (p_2_3 + (g_2_0 * p_0_3));
+                        after->covariance[13] = (g_2_1 * p_1_4) + (p_2_4 + (g_2_0 * p_0_4));
+                        after->covariance[14] = (g_2_1 * p_1_5) + (p_2_5 + (g_2_0 * p_0_5));
+                        after->covariance[15] = after->covariance[15];
+                        after->covariance[16] = after->covariance[16];
+                        after->covariance[17] = after->covariance[17];
+                        after->covariance[18] = after->covariance[18];
+                        after->covariance[19] = after->covariance[19];
+                        after->covariance[20] = after->covariance[20];
+                    }
+                    after->rejected_magnetometer = 0U;
+
+                    /* judge, then commit */
+                    if (!attitude_ekf_is_bounded(after->covariance))
+                    {
+                        status = attitude_ekf_hold_variances(after->covariance);
+                    }
+                    if (status >= ATTITUDE_EKF_OK)
+                    {
+                        if (!((fabsf(after->q[0]) <= 1.01f) && (fabsf(after->q[1]) <= 1.01f)
+                              && (fabsf(after->q[2]) <= 1.01f) && (fabsf(after->q[3]) <= 1.01f)
+                              && (fabsf(after->bias[0]) <= 1.0f) && (fabsf(after->bias[1]) <= 1.0f)
+                              && (fabsf(after->bias[2]) <= 1.0f)))
+                        {
+                            status = ATTITUDE_EKF_OVERFLOW;
+                        }
+                    }
                 }
-                status = attitude_ekf_higher(status, ATTITUDE_EKF_GATED);
+                else
+                {
+                    *after = *before;
+                    if (after->rejected_magnetometer < UINT32_MAX)
+                    {
+                        after->rejected_magnetometer = after->rejected_magnetometer + 1U;
+                    }
+                    status = attitude_ekf_higher(status, ATTITUDE_EKF_GATED);
+                }
             }
         }
     }
@@ -1446,7 +1462,7 @@ attitude_ekf_status_t attitude_ekf_inflate(attitude_ekf_state_t *state, const at
 
 const char *attitude_ekf_model(void)
 {
-    return "057ccd77";
+    return "68f88410";
 }
 
 const char *attitude_ekf_status_text(attitude_ekf_status_t status)
@@ -1477,7 +1493,7 @@ const char *attitude_ekf_status_text(attitude_ekf_status_t status)
             text = "a parameter is outside its range, or not a number";
             break;
         case ATTITUDE_EKF_NOT_POSITIVE:
-            text = "a variance would be negative, or of an innovation not positive";
+            text = "a variance would not be positive";
             break;
         case ATTITUDE_EKF_OVERFLOW:
             text = "the result would leave its range";

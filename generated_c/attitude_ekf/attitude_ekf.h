@@ -1,6 +1,6 @@
 /* attitude_ekf: Extended Kalman filter of the plant "attitude", in single precision.
  *
- * Written by plantc 0.1.0 from model 057ccd77. Do not edit: change the model, export again.
+ * Written by plantc 0.1.0 from model 68f88410. Do not edit: change the model, export again.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  *
  *    rate of q[0] = gyro[0] - bias[0] + gyro_noise[0]
@@ -42,7 +42,7 @@ typedef enum
     ATTITUDE_EKF_RECOVERED = 4,       /* gated too often in a row: P inflated, reading taken without gate */
     ATTITUDE_EKF_BAD_INPUT = -1,      /* an input is outside its range, or not a number */
     ATTITUDE_EKF_BAD_PARAM = -2,      /* a parameter is outside its range, or not a number */
-    ATTITUDE_EKF_NOT_POSITIVE = -3,   /* a variance would be negative, or of an innovation not positive */
+    ATTITUDE_EKF_NOT_POSITIVE = -3,   /* a variance would not be positive */
     ATTITUDE_EKF_OVERFLOW = -4        /* the result would leave its range */
 } attitude_ekf_status_t;
 

@@ -1,4 +1,4 @@
-/* How to call attitude_ekf: an example to copy from. Written by plantc 0.1.0 from model 057ccd77.
+/* How to call attitude_ekf: an example to copy from. Written by plantc 0.1.0 from model 68f88410.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  */
 #include "attitude_ekf.h"

@@ -1,4 +1,4 @@
-/* How to call pendulum_ekf: an example to copy from. Written by plantc 0.1.0 from model 3c95fd5c.
+/* How to call pendulum_ekf: an example to copy from. Written by plantc 0.1.0 from model ac32d234.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  */
 #include "pendulum_ekf.h"

@@ -1,4 +1,4 @@
-/* pendulum_ekf: see pendulum_ekf.h. Written by plantc 0.1.0 from model 3c95fd5c. */
+/* pendulum_ekf: see pendulum_ekf.h. Written by plantc 0.1.0 from model ac32d234. */
 #include "pendulum_ekf.h"
 
 #include <math.h>
@@ -242,38 +242,45 @@ static pendulum_ekf_status_t pendulum_ekf_update_encoder_core(const pendulum_ekf
         }
         else
         {
-            out->nis = nis[0];
-
-            /* accepted? */
-            if ((gate <= 0.0f) || (nis[0] <= gate))
+            if (!(nis[0] <= 1.0e30f))
             {
-                /* x = x + d */
-                const float v_2 = before->theta + delta[0];
-                after->theta = v_2 - (6.2831855f * floorf(0.5f + (0.15915494f * v_2)));
-                after->omega = before->omega + delta[1];
-                after->rejected_encoder = 0U;
-
-                /* judge, then commit */
-                if (!pendulum_ekf_is_bounded(after->covariance))
-                {
-                    status = pendulum_ekf_hold_variances(after->covariance);
-                }
-                if (status >= PENDULUM_EKF_OK)
-                {
-                    if (!((fabsf(after->theta) <= 3.15f) && (fabsf(after->omega) <= 100.0f)))
-                    {
-                        status = PENDULUM_EKF_OVERFLOW;
-                    }
-                }
+                status = PENDULUM_EKF_OVERFLOW;
             }
             else
             {
-                *after = *before;
-                if (after->rejected_encoder < UINT32_MAX)
+                out->nis = nis[0];
+
+                /* accepted? */
+                if ((gate <= 0.0f) || (nis[0] <= gate))
                 {
-                    after->rejected_encoder = after->rejected_encoder + 1U;
+                    /* x = x + d */
+                    const float v_2 = before->theta + delta[0];
+                    after->theta = v_2 - (6.2831855f * floorf(0.5f + (0.15915494f * v_2)));
+                    after->omega = before->omega + delta[1];
+                    after->rejected_encoder = 0U;
+
+                    /* judge, then commit */
+                    if (!pendulum_ekf_is_bounded(after->covariance))
+                    {
+                        status = pendulum_ekf_hold_variances(after->covariance);
+                    }
+                    if (status >= PENDULUM_EKF_OK)
+                    {
+                        if (!((fabsf(after->theta) <= 3.15f) && (fabsf(after->omega) <= 100.0f)))
+                        {
+                            status = PENDULUM_EKF_OVERFLOW;
+                        }
+                    }
                 }
-                status = pendulum_ekf_higher(status, PENDULUM_EKF_GATED);
+                else
+                {
+                    *after = *before;
+                    if (after->rejected_encoder < UINT32_MAX)
+                    {
+                        after->rejected_encoder = after->rejected_encoder + 1U;
+                    }
+                    status = pendulum_ekf_higher(status, PENDULUM_EKF_GATED);
+                }
             }
         }
     }
@@ -464,7 +471,7 @@ pendulum_ekf_status_t pendulum_ekf_inflate(pendulum_ekf_state_t *state, const pe
 
 const char *pendulum_ekf_model(void)
 {
-    return "3c95fd5c";
+    return "ac32d234";
 }
 
 const char *pendulum_ekf_status_text(pendulum_ekf_status_t status)
@@ -495,7 +502,7 @@ const char *pendulum_ekf_status_text(pendulum_ekf_status_t status)
             text = "a parameter is outside its range, or not a number";
             break;
         case PENDULUM_EKF_NOT_POSITIVE:
-            text = "a variance would be negative, or of an innovation not positive";
+            text = "a variance would not be positive";
             break;
         case PENDULUM_EKF_OVERFLOW:
             text = "the result would leave its range";

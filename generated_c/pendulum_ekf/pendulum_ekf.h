@@ -1,6 +1,6 @@
 /* pendulum_ekf: Extended Kalman filter of the plant "pendulum", in single precision.
  *
- * Written by plantc 0.1.0 from model 3c95fd5c. Do not edit: change the model, export again.
+ * Written by plantc 0.1.0 from model ac32d234. Do not edit: change the model, export again.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  *
  *    theta' = omega
@@ -33,7 +33,7 @@ typedef enum
     PENDULUM_EKF_RECOVERED = 4,       /* gated too often in a row: P inflated, reading taken without gate */
     PENDULUM_EKF_BAD_INPUT = -1,      /* an input is outside its range, or not a number */
     PENDULUM_EKF_BAD_PARAM = -2,      /* a parameter is outside its range, or not a number */
-    PENDULUM_EKF_NOT_POSITIVE = -3,   /* a variance would be negative, or of an innovation not positive */
+    PENDULUM_EKF_NOT_POSITIVE = -3,   /* a variance would not be positive */
     PENDULUM_EKF_OVERFLOW = -4        /* the result would leave its range */
 } pendulum_ekf_status_t;
 

@@ -1,4 +1,4 @@
-/* Test vectors of pendulum_ekf with their runner. Written by plantc 0.1.0 from model 3c95fd5c.
+/* Test vectors of pendulum_ekf with their runner. Written by plantc 0.1.0 from model ac32d234.
  *
  * Each call starts from a stated memory; what it gives is compared with what the Python model gave, in units of the
  * natural size of each field. Build with pendulum_ekf.c; returns 0 if all agree. For hosts: it prints.
@@ -34,18 +34,21 @@ static const pendulum_ekf_state_t memories[] = {
     {-2.49122f, -4.39142f, {0.00157273f, 0.0108582f, 0.0975644f}, 0U},
     {-2.66739f, -4.56068f, {0.0000955881f, 0.000621143f, 0.0284897f}, 0U},
     {-3.07197f, -3.8349f, {0.000523065f, 0.00495566f, 0.0661263f}, 0U},
-    {1.65422f, -2.50961f, {0.0000378832f, 0.000541728f, 0.0217881f}, 0U},
-    {1.74099f, -100.0f, {0.0000465158f, 0.000785892f, 0.0307252f}, 0U},
+    {1.28598f, -1.507f, {0.00118648f, 0.000582305f, 0.00105294f}, 2U},
+    {1.27023f, -1.67276f, {0.00119939f, 0.000609438f, 0.0180563f}, 3U},
+    {1.48999f, 0.491099f, {0.0527346f, -0.0380465f, 0.683672f}, 1U},
+    {1.48999f, 0.491099f, {0.0527346f, -0.0380465f, 0.683672f}, 2U},
+    {-0.0529356f, 0.328434f, {0.00368227f, -0.0271704f, 0.417871f}, 2U},
+    {-0.900346f, 6.66507f, {0.000110586f, -0.000818013f, 39.1179f}, 0U},
+    {-0.293486f, -6.48391f, {0.000106992f, 0.00141002f, 0.0360401f}, 0U},
+    {-0.293486f, 100.0f, {0.000106992f, 0.00141002f, 0.0360401f}, 0U},
     {2.48267f, 2.61783f, {0.0000322289f, 0.000583222f, 0.027617f}, 0U},
-    {2.99157f, -100.0f, {0.0000506933f, 0.000582844f, 0.0238039f}, 0U},
-    {1.66189f, -2.39988f, {0.000060987f, 0.000872111f, 0.0265126f}, 0U},
-    {1.70296f, -2.00353f, {0.00010088f, 0.00160754f, 0.0400882f}, 0U},
-    {2.37008f, 3.18786f, {0.0000393126f, 0.000501387f, 0.0206781f}, 0U},
-    {2.42175f, 2.92433f, {0.0000615668f, 0.000899914f, 0.0273923f}, 0U},
-    {2.61882f, -100.0f, {0.0000456891f, 0.000818636f, 0.0265896f}, 0U},
-    {3.07796f, -0.306934f, {0.0000442756f, 0.000721586f, 0.0254381f}, 0U},
-    {1.78291f, -2.30667f, {0.0000732873f, 0.00399731f, 0.68658f}, 3U},
-    {1.79144f, -0.71014f, {0.0000997799f, 0.00367635f, 8.05361f}, 0U}
+    {3.037f, 100.0f, {0.0000319593f, 0.000404326f, 0.0205532f}, 0U},
+    {1.55559f, -3.17904f, {0.0000514943f, 0.000741096f, 0.0242462f}, 0U},
+    {0.355592f, 8.43401f, {0.000051339f, 0.000699364f, 0.0322087f}, 0U},
+    {0.633143f, 8.16954f, {0.000137002f, 0.00193089f, 0.0445443f}, 0U},
+    {2.182f, -100.0f, {0.0000490402f, 0.000690653f, 0.024468f}, 0U},
+    {3.07796f, -0.306934f, {0.0000442756f, 0.000721586f, 0.0254381f}, 0U}
 };
 
 /* The natural size of an error in each field of the memory. */
@@ -53,27 +56,32 @@ static const pendulum_ekf_state_t sizes = {1.0f, 1.0f, {1.0f, 1.0f, 1.0f}, 0U};
 
 static const pendulum_ekf_params_t parameters[] = {
     {0.2f, 0.5f, 9.81f, 0.001f, 0.0001f, 0.0f, 0U, 100.0f, 0.0f, 0.0f, 1.0f, 1.0f},
-    {(float)NAN, 0.5f, 9.81f, 0.001f, 0.0001f, 0.0f, 0U, 100.0f, 0.0f, 0.0f, 1.0f, 1.0f},
-    {0.2f, 0.5f, 9.81f, 0.001f, -1000.0f, 0.0f, 0U, 100.0f, 0.0f, 0.0f, 1.0f, 1.0f},
-    {0.2f, 0.5f, 9.81f, 0.001f, 0.0001f, 0.0f, 1U, 100.0f, 0.0f, 0.0f, 1.0f, 1.0f}
+    {0.1804f, 0.38935f, 8.12389f, 0.00122166f, 0.000104137f, 0.0889063f, 0U, 94.385f, 0.0f, 0.0f, 1.20907f, 1.29812f},
+    {0.175205f, 0.69755f, 10.3891f, 0.000943389f, 0.000121175f, 0.55074f, 1U, 120.944f, 0.0f, 0.0f, 0.825857f,
+     1.03604f},
+    {0.185729f, 0.541767f, 12.3998f, 0.000995685f, 0.000110617f, 9.7527f, 1U, 136.919f, 0.0f, 0.0f, 1.21319f,
+     0.779478f},
+    {0.2f, 0.5f, -1.0e-45f, 0.001f, 0.0001f, 0.0f, 0U, 100.0f, 0.0f, 0.0f, 1.0f, 1.0f},
+    {0.2f, 0.5f, 9.81f, 0.001f, -1000.0f, 0.0f, 0U, 100.0f, 0.0f, 0.0f, 1.0f, 1.0f}
 };
 
 static const pendulum_ekf_predict_in_t predict_inputs[] = {
     {-0.108527f, 0.0841023f},
     {-0.0388779f, 0.0887095f},
-    {(float)NAN, 0.0233736f},
-    {0.193086f, 0.0231053f}
+    {(float)NAN, 0.0158488f},
+    {0.15398f, 0.0158488f}
 };
 
 static const pendulum_ekf_update_encoder_in_t update_encoder_inputs[] = {
     {-0.243297f},
+    {2.49203f},
     {(float)NAN},
-    {2.98732f},
-    {1.64164f}
+    {3.04468f}
 };
 
 static const pendulum_ekf_update_encoder_out_t update_encoder_outputs[] = {
     {0.00711901f, 0.000243305f, 0.2083f},
+    {1.00204f, 0.0528558f, 18.9967f},
     {0.0f, 0.0f, 0.0f}
 };
 
@@ -97,10 +105,11 @@ static const pendulum_ekf_step_in_t step_inputs[] = {
     {-0.0713985f, 0.0116502f, true, -1.39954f},
     {-0.106187f, 0.0855012f, false, -2.55831f},
     {-0.0337277f, 0.0245475f, true, -2.67055f},
-    {(float)NAN, 0.014498f, true, 1.65421f},
-    {-0.128939f, 0.0162088f, true, (float)INFINITY},
-    {-0.104896f, 0.0934316f, true, 2.8123f},
-    {0.196298f, 0.0183889f, true, 1.79155f}
+    {0.113846f, 0.0104502f, true, 3.04643f},
+    {0.0274647f, 0.0164777f, true, -0.900584f},
+    {(float)NAN, 0.0368639f, true, 1.41553f},
+    {-0.0602899f, 0.0329085f, true, (float)INFINITY},
+    {-0.146847f, 0.0474507f, true, 2.37176f}
 };
 
 static const pendulum_ekf_step_out_t step_outputs[] = {
@@ -119,8 +128,9 @@ static const pendulum_ekf_step_out_t step_outputs[] = {
     {(pendulum_ekf_status_t)0, {0.0255937f, 0.000630438f, 1.03902f}},
     {(pendulum_ekf_status_t)0, {-0.00464976f, 0.000205672f, 0.10512f}},
     {(pendulum_ekf_status_t)0, {-0.0715317f, 0.00226658f, 2.2575f}},
-    {(pendulum_ekf_status_t)-1, {0.0f, 0.0f, 0.0f}},
-    {(pendulum_ekf_status_t)0, {0.0510572f, 0.0454297f, 0.0573818f}}
+    {(pendulum_ekf_status_t)1, {1.7762f, 0.00130352f, 2420.27f}},
+    {(pendulum_ekf_status_t)0, {-0.85306f, 0.397288f, 1.8317f}},
+    {(pendulum_ekf_status_t)-1, {0.0f, 0.0f, 0.0f}}
 };
 
 static const pendulum_ekf_inflate_in_t inflate_inputs[] = {
@@ -173,17 +183,19 @@ static const struct vector vectors[] = {
     { ENTRY_STEP, 21, 17, 0, 22, 1, PENDULUM_EKF_OK },
     { ENTRY_STEP, 22, 18, 0, 23, 14, PENDULUM_EKF_OK },
     { ENTRY_PREDICT, 23, 1, 0, 24, 0, PENDULUM_EKF_OK },
-    { ENTRY_INIT, 0, 0, 1, 0, 0, PENDULUM_EKF_BAD_PARAM },
-    { ENTRY_PREDICT, 25, 2, 0, 25, 0, PENDULUM_EKF_BAD_INPUT },
-    { ENTRY_PREDICT, 26, 3, 0, 26, 0, PENDULUM_EKF_OVERFLOW },
-    { ENTRY_UPDATE_ENCODER, 27, 1, 0, 27, 1, PENDULUM_EKF_BAD_INPUT },
-    { ENTRY_UPDATE_ENCODER, 28, 2, 0, 28, 1, PENDULUM_EKF_OVERFLOW },
-    { ENTRY_UPDATE_ENCODER, 29, 3, 2, 29, 1, PENDULUM_EKF_NOT_POSITIVE },
-    { ENTRY_STEP, 30, 19, 0, 30, 1, PENDULUM_EKF_BAD_INPUT },
-    { ENTRY_STEP, 31, 20, 0, 32, 15, PENDULUM_EKF_SKIPPED },
-    { ENTRY_STEP, 33, 21, 0, 33, 1, PENDULUM_EKF_OVERFLOW },
-    { ENTRY_INFLATE, 34, 1, 0, 34, 0, PENDULUM_EKF_BAD_INPUT },
-    { ENTRY_STEP, 35, 22, 3, 36, 16, PENDULUM_EKF_RECOVERED }
+    { ENTRY_STEP, 25, 19, 1, 26, 15, PENDULUM_EKF_GATED },
+    { ENTRY_UPDATE_ENCODER, 27, 1, 2, 28, 1, PENDULUM_EKF_GATED },
+    { ENTRY_STEP, 29, 20, 3, 30, 16, PENDULUM_EKF_RECOVERED },
+    { ENTRY_INIT, 0, 0, 4, 0, 0, PENDULUM_EKF_BAD_PARAM },
+    { ENTRY_PREDICT, 31, 2, 0, 31, 0, PENDULUM_EKF_BAD_INPUT },
+    { ENTRY_PREDICT, 32, 3, 0, 32, 0, PENDULUM_EKF_OVERFLOW },
+    { ENTRY_UPDATE_ENCODER, 33, 2, 0, 33, 2, PENDULUM_EKF_BAD_INPUT },
+    { ENTRY_UPDATE_ENCODER, 34, 3, 0, 34, 2, PENDULUM_EKF_OVERFLOW },
+    { ENTRY_UPDATE_ENCODER, 33, 1, 5, 33, 2, PENDULUM_EKF_NOT_POSITIVE },
+    { ENTRY_STEP, 35, 21, 0, 35, 1, PENDULUM_EKF_BAD_INPUT },
+    { ENTRY_STEP, 36, 22, 0, 37, 17, PENDULUM_EKF_SKIPPED },
+    { ENTRY_STEP, 38, 23, 0, 38, 1, PENDULUM_EKF_OVERFLOW },
+    { ENTRY_INFLATE, 39, 1, 0, 39, 0, PENDULUM_EKF_BAD_INPUT }
 };
 
 static int differs(float value, float expected, float size)
@@ -233,7 +245,8 @@ int main(void)
             case ENTRY_UPDATE_ENCODER:
             {
                 pendulum_ekf_update_encoder_out_t answer = update_encoder_outputs[v->outputs];
-                const pendulum_ekf_update_encoder_out_t *const expected = &update_encoder_outputs[v->outputs];
+                const pendulum_ekf_update_encoder_out_t *const expected =
+                    &update_encoder_outputs[v->outputs];
 
                 status = pendulum_ekf_update_encoder(&state, &parameters[v->parameters],
      &update_encoder_inputs[v->inputs], &answer);
@@ -246,7 +259,8 @@ int main(void)
             case ENTRY_STEP:
             {
                 pendulum_ekf_step_out_t answer = step_outputs[v->outputs];
-                const pendulum_ekf_step_out_t *const expected = &step_outputs[v->outputs];
+                const pendulum_ekf_step_out_t *const expected =
+                    &step_outputs[v->outputs];
 
                 status = pendulum_ekf_step(&state, &parameters[v->parameters], &step_inputs[v->inputs], &answer);
                 count += (answer.status_encoder != expected->status_encoder);

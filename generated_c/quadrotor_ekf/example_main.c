@@ -1,4 +1,4 @@
-/* How to call quadrotor_ekf: an example to copy from. Written by plantc 0.1.0 from model bb7582df.
+/* How to call quadrotor_ekf: an example to copy from. Written by plantc 0.1.0 from model 60db2210.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  */
 #include "quadrotor_ekf.h"
@@ -9,7 +9,8 @@ int main(void)
 {
     const quadrotor_ekf_params_t params = QUADROTOR_EKF_PARAMS_DEFAULT;
     quadrotor_ekf_state_t state;
-    quadrotor_ekf_step_in_t in = {0.0, 0.0, 0.0, 0.0, false, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
+    quadrotor_ekf_step_in_t in = {0.0, 0.0, 0.0, 0.0, false, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+     0.0, 0.0}};
     quadrotor_ekf_step_out_t out;
     quadrotor_ekf_status_t status = quadrotor_ekf_init(&state, &params);
 

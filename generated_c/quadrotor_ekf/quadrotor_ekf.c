@@ -1,4 +1,4 @@
-/* quadrotor_ekf: see quadrotor_ekf.h. Written by plantc 0.1.0 from model bb7582df. */
+/* quadrotor_ekf: see quadrotor_ekf.h. Written by plantc 0.1.0 from model 60db2210. */
 #include "quadrotor_ekf.h"
 
 #include <math.h>
@@ -989,51 +989,59 @@ static quadrotor_ekf_status_t quadrotor_ekf_update_pose_core(const quadrotor_ekf
         }
         else
         {
-            out->nis = work.nis;
-
-            /* accepted? */
-            if ((gate <= 0.0) || (work.nis <= gate))
+            if (!(work.nis <= 1.0e30))
             {
-                /* x = x + d */
-                after->x = before->x + work.delta[0];
-                after->vx = before->vx + work.delta[1];
-                after->y = before->y + work.delta[2];
-                after->vy = before->vy + work.delta[3];
-                after->z = before->z + work.delta[4];
-                after->vz = before->vz + work.delta[5];
-                after->roll = before->roll + work.delta[6];
-                after->roll_rate = before->roll_rate + work.delta[7];
-                after->pitch = before->pitch + work.delta[8];
-                after->pitch_rate = before->pitch_rate + work.delta[9];
-                after->yaw = before->yaw + work.delta[10];
-                after->yaw_rate = before->yaw_rate + work.delta[11];
-                after->rejected_pose = 0U;
-
-                /* judge, then commit */
-                if (!quadrotor_ekf_is_bounded(after->covariance))
-                {
-                    status = quadrotor_ekf_hold_variances(after->covariance);
-                }
-                if (status >= QUADROTOR_EKF_OK)
-                {
-                    if (!((fabs(after->x) <= 10000.0) && (fabs(after->vx) <= 1000.0) && (fabs(after->y) <= 10000.0)
-                          && (fabs(after->vy) <= 1000.0) && (fabs(after->z) <= 10000.0) && (fabs(after->vz) <= 1000.0)
-                          && (fabs(after->roll) <= 30.0) && (fabs(after->roll_rate) <= 100.0)
-                          && (fabs(after->pitch) <= 30.0) && (fabs(after->pitch_rate) <= 100.0)
-                          && (fabs(after->yaw) <= 30.0) && (fabs(after->yaw_rate) <= 100.0)))
-                    {
-                        status = QUADROTOR_EKF_OVERFLOW;
-                    }
-                }
+                status = QUADROTOR_EKF_OVERFLOW;
             }
             else
             {
-                *after = *before;
-                if (after->rejected_pose < UINT32_MAX)
+                out->nis = work.nis;
+
+                /* accepted? */
+                if ((gate <= 0.0) || (work.nis <= gate))
                 {
-                    after->rejected_pose = after->rejected_pose + 1U;
+                    /* x = x + d */
+                    after->x = before->x + work.delta[0];
+                    after->vx = before->vx + work.delta[1];
+                    after->y = before->y + work.delta[2];
+                    after->vy = before->vy + work.delta[3];
+                    after->z = before->z + work.delta[4];
+                    after->vz = before->vz + work.delta[5];
+                    after->roll = before->roll + work.delta[6];
+                    after->roll_rate = before->roll_rate + work.delta[7];
+                    after->pitch = before->pitch + work.delta[8];
+                    after->pitch_rate = before->pitch_rate + work.delta[9];
+                    after->yaw = before->yaw + work.delta[10];
+                    after->yaw_rate = before->yaw_rate + work.delta[11];
+                    after->rejected_pose = 0U;
+
+                    /* judge, then commit */
+                    if (!quadrotor_ekf_is_bounded(after->covariance))
+                    {
+                        status = quadrotor_ekf_hold_variances(after->covariance);
+                    }
+                    if (status >= QUADROTOR_EKF_OK)
+                    {
+                        if (!((fabs(after->x) <= 10000.0) && (fabs(after->vx) <= 1000.0) && (fabs(after->y) <= 10000.0)
+                              && (fabs(after->vy) <= 1000.0) && (fabs(after->z) <= 10000.0)
+                              && (fabs(after->vz) <= 1000.0) && (fabs(after->roll) <= 30.0)
+                              && (fabs(after->roll_rate) <= 100.0) && (fabs(after->pitch) <= 30.0)
+                              && (fabs(after->pitch_rate) <= 100.0) && (fabs(after->yaw) <= 30.0)
+                              && (fabs(after->yaw_rate) <= 100.0)))
+                        {
+                            status = QUADROTOR_EKF_OVERFLOW;
+                        }
+                    }
                 }
-                status = quadrotor_ekf_higher(status, QUADROTOR_EKF_GATED);
+                else
+                {
+                    *after = *before;
+                    if (after->rejected_pose < UINT32_MAX)
+                    {
+                        after->rejected_pose = after->rejected_pose + 1U;
+                    }
+                    status = quadrotor_ekf_higher(status, QUADROTOR_EKF_GATED);
+                }
             }
         }
     }
@@ -1254,7 +1262,7 @@ quadrotor_ekf_status_t quadrotor_ekf_inflate(quadrotor_ekf_state_t *state, const
 
 const char *quadrotor_ekf_model(void)
 {
-    return "bb7582df";
+    return "60db2210";
 }
 
 const char *quadrotor_ekf_status_text(quadrotor_ekf_status_t status)
@@ -1285,7 +1293,7 @@ const char *quadrotor_ekf_status_text(quadrotor_ekf_status_t status)
             text = "a parameter is outside its range, or not a number";
             break;
         case QUADROTOR_EKF_NOT_POSITIVE:
-            text = "a variance would be negative, or of an innovation not positive";
+            text = "a variance would not be positive";
             break;
         case QUADROTOR_EKF_OVERFLOW:
             text = "the result would leave its range";

@@ -1,6 +1,6 @@
 /* quadrotor_ekf: Extended Kalman filter of the plant "quadrotor", in double precision.
  *
- * Written by plantc 0.1.0 from model bb7582df. Do not edit: change the model, export again.
+ * Written by plantc 0.1.0 from model 60db2210. Do not edit: change the model, export again.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  *
  *    x' = vx
@@ -35,6 +35,10 @@
  *    pose[10] = yaw + noise
  *    pose[11] = yaw_rate + noise
  *
+ * Constants: thrust_factor = 5.42e-05 N s^2; drag_factor = 1.1e-06 N m s^2; arm_length = 0.24 m; mass = 1 kg; gravity =
+ * 9.81 m/s^2; inertia_x = 0.0081 kg m^2; inertia_y = 0.0081 kg m^2; inertia_z = 0.0142 kg m^2; inertia_rotor = 0.000104
+ * kg m^2.
+ * dt = 0.025 s.
  * Discretised by euler.
  * Covariance packed (upper triangle by rows); one scalar update for each sensor row.
  * No heap, no globals, no recursion. One state for each instance, used by one context at a time. A call that returns a
@@ -60,7 +64,7 @@ typedef enum
     QUADROTOR_EKF_RECOVERED = 4,       /* gated too often in a row: P inflated, reading taken without gate */
     QUADROTOR_EKF_BAD_INPUT = -1,      /* an input is outside its range, or not a number */
     QUADROTOR_EKF_BAD_PARAM = -2,      /* a parameter is outside its range, or not a number */
-    QUADROTOR_EKF_NOT_POSITIVE = -3,   /* a variance would be negative, or of an innovation not positive */
+    QUADROTOR_EKF_NOT_POSITIVE = -3,   /* a variance would not be positive */
     QUADROTOR_EKF_OVERFLOW = -4        /* the result would leave its range */
 } quadrotor_ekf_status_t;
 
@@ -190,12 +194,10 @@ typedef struct
 } quadrotor_ekf_inflate_in_t;
 
 #define QUADROTOR_EKF_PARAMS_DEFAULT {1.0e-6, 1.0e-6, 1.0e-6, 1.0e-6, 1.0e-6, 1.0e-6, 1.0e-6, 1.0e-6, 1.0e-6, 1.0e-6, \
-    1.0e-6, 1.0e-6, {0.010000000000000002, 0.010000000000000002, 0.010000000000000002, 0.010000000000000002, \
-    0.010000000000000002, 0.010000000000000002, 0.010000000000000002, 0.010000000000000002, 0.010000000000000002, \
-    0.010000000000000002, 0.010000000000000002, 0.010000000000000002}, 60.0, 0U, 100.0, 0.0, 0.0, 0.0, 0.0, 30.0, 0.0, \
-    0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335, \
+    1.0e-6, 1.0e-6, {0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01}, 60.0, 0U, 100.0, 0.0, \
+    0.0, 0.0, 0.0, 30.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0033333333333333335, 0.0033333333333333335, \
     0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335, \
-    0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335}
+    0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335}
 
 /* Start (or start again) from the initial estimate in the parameters; every parameter is checked here. */
 quadrotor_ekf_status_t quadrotor_ekf_init(quadrotor_ekf_state_t *state, const quadrotor_ekf_params_t *params);

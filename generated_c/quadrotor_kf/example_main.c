@@ -1,4 +1,4 @@
-/* How to call quadrotor_kf: an example to copy from. Written by plantc 0.1.0 from model 311c7133.
+/* How to call quadrotor_kf: an example to copy from. Written by plantc 0.1.0 from model f10ff021.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  */
 #include "quadrotor_kf.h"
@@ -9,7 +9,8 @@ int main(void)
 {
     const quadrotor_kf_params_t params = QUADROTOR_KF_PARAMS_DEFAULT;
     quadrotor_kf_state_t state;
-    quadrotor_kf_step_in_t in = {0.0, 0.0, 0.0, 0.0, false, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
+    quadrotor_kf_step_in_t in = {0.0, 0.0, 0.0, 0.0, false, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+     0.0, 0.0}};
     quadrotor_kf_step_out_t out;
     quadrotor_kf_status_t status = quadrotor_kf_init(&state, &params);
 

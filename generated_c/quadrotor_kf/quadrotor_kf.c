@@ -1,4 +1,4 @@
-/* quadrotor_kf: see quadrotor_kf.h. Written by plantc 0.1.0 from model 311c7133. */
+/* quadrotor_kf: see quadrotor_kf.h. Written by plantc 0.1.0 from model f10ff021. */
 #include "quadrotor_kf.h"
 
 #include <math.h>
@@ -936,51 +936,59 @@ static quadrotor_kf_status_t quadrotor_kf_update_pose_core(const quadrotor_kf_st
         }
         else
         {
-            out->nis = work.nis;
-
-            /* accepted? */
-            if ((gate <= 0.0) || (work.nis <= gate))
+            if (!(work.nis <= 1.0e30))
             {
-                /* x = x + d */
-                after->x = before->x + work.delta[0];
-                after->vx = before->vx + work.delta[1];
-                after->y = before->y + work.delta[2];
-                after->vy = before->vy + work.delta[3];
-                after->z = before->z + work.delta[4];
-                after->vz = before->vz + work.delta[5];
-                after->roll = before->roll + work.delta[6];
-                after->roll_rate = before->roll_rate + work.delta[7];
-                after->pitch = before->pitch + work.delta[8];
-                after->pitch_rate = before->pitch_rate + work.delta[9];
-                after->yaw = before->yaw + work.delta[10];
-                after->yaw_rate = before->yaw_rate + work.delta[11];
-                after->rejected_pose = 0U;
-
-                /* judge, then commit */
-                if (!quadrotor_kf_is_bounded(after->covariance))
-                {
-                    status = quadrotor_kf_hold_variances(after->covariance);
-                }
-                if (status >= QUADROTOR_KF_OK)
-                {
-                    if (!((fabs(after->x) <= 10000.0) && (fabs(after->vx) <= 1000.0) && (fabs(after->y) <= 10000.0)
-                          && (fabs(after->vy) <= 1000.0) && (fabs(after->z) <= 10000.0) && (fabs(after->vz) <= 1000.0)
-                          && (fabs(after->roll) <= 30.0) && (fabs(after->roll_rate) <= 100.0)
-                          && (fabs(after->pitch) <= 30.0) && (fabs(after->pitch_rate) <= 100.0)
-                          && (fabs(after->yaw) <= 30.0) && (fabs(after->yaw_rate) <= 100.0)))
-                    {
-                        status = QUADROTOR_KF_OVERFLOW;
-                    }
-                }
+                status = QUADROTOR_KF_OVERFLOW;
             }
             else
             {
-                *after = *before;
-                if (after->rejected_pose < UINT32_MAX)
+                out->nis = work.nis;
+
+                /* accepted? */
+                if ((gate <= 0.0) || (work.nis <= gate))
                 {
-                    after->rejected_pose = after->rejected_pose + 1U;
+                    /* x = x + d */
+                    after->x = before->x + work.delta[0];
+                    after->vx = before->vx + work.delta[1];
+                    after->y = before->y + work.delta[2];
+                    after->vy = before->vy + work.delta[3];
+                    after->z = before->z + work.delta[4];
+                    after->vz = before->vz + work.delta[5];
+                    after->roll = before->roll + work.delta[6];
+                    after->roll_rate = before->roll_rate + work.delta[7];
+                    after->pitch = before->pitch + work.delta[8];
+                    after->pitch_rate = before->pitch_rate + work.delta[9];
+                    after->yaw = before->yaw + work.delta[10];
+                    after->yaw_rate = before->yaw_rate + work.delta[11];
+                    after->rejected_pose = 0U;
+
+                    /* judge, then commit */
+                    if (!quadrotor_kf_is_bounded(after->covariance))
+                    {
+                        status = quadrotor_kf_hold_variances(after->covariance);
+                    }
+                    if (status >= QUADROTOR_KF_OK)
+                    {
+                        if (!((fabs(after->x) <= 10000.0) && (fabs(after->vx) <= 1000.0) && (fabs(after->y) <= 10000.0)
+                              && (fabs(after->vy) <= 1000.0) && (fabs(after->z) <= 10000.0)
+                              && (fabs(after->vz) <= 1000.0) && (fabs(after->roll) <= 30.0)
+                              && (fabs(after->roll_rate) <= 100.0) && (fabs(after->pitch) <= 30.0)
+                              && (fabs(after->pitch_rate) <= 100.0) && (fabs(after->yaw) <= 30.0)
+                              && (fabs(after->yaw_rate) <= 100.0)))
+                        {
+                            status = QUADROTOR_KF_OVERFLOW;
+                        }
+                    }
                 }
-                status = quadrotor_kf_higher(status, QUADROTOR_KF_GATED);
+                else
+                {
+                    *after = *before;
+                    if (after->rejected_pose < UINT32_MAX)
+                    {
+                        after->rejected_pose = after->rejected_pose + 1U;
+                    }
+                    status = quadrotor_kf_higher(status, QUADROTOR_KF_GATED);
+                }
             }
         }
     }
@@ -1201,7 +1209,7 @@ quadrotor_kf_status_t quadrotor_kf_inflate(quadrotor_kf_state_t *state, const qu
 
 const char *quadrotor_kf_model(void)
 {
-    return "311c7133";
+    return "f10ff021";
 }
 
 const char *quadrotor_kf_status_text(quadrotor_kf_status_t status)
@@ -1232,7 +1240,7 @@ const char *quadrotor_kf_status_text(quadrotor_kf_status_t status)
             text = "a parameter is outside its range, or not a number";
             break;
         case QUADROTOR_KF_NOT_POSITIVE:
-            text = "a variance would be negative, or of an innovation not positive";
+            text = "a variance would not be positive";
             break;
         case QUADROTOR_KF_OVERFLOW:
             text = "the result would leave its range";

@@ -1,6 +1,6 @@
 /* quadrotor_kf: Kalman filter of the plant "quadrotor" linearised at an operating point, in double precision.
  *
- * Written by plantc 0.1.0 from model 311c7133. Do not edit: change the model, export again.
+ * Written by plantc 0.1.0 from model f10ff021. Do not edit: change the model, export again.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  *
  *    x+ = x + 0.025 vx
@@ -32,6 +32,7 @@
  *    pose[10] = yaw + noise
  *    pose[11] = yaw_rate + noise
  *
+ * dt = 0.025 s.
  * Covariance packed (upper triangle by rows); one scalar update for each sensor row.
  * No heap, no globals, no recursion. One state for each instance, used by one context at a time. A call that returns a
  * negative status leaves the state and the outputs exactly as they were. Positive: degraded, the highest is returned.
@@ -56,7 +57,7 @@ typedef enum
     QUADROTOR_KF_RECOVERED = 4,       /* gated too often in a row: P inflated, reading taken without gate */
     QUADROTOR_KF_BAD_INPUT = -1,      /* an input is outside its range, or not a number */
     QUADROTOR_KF_BAD_PARAM = -2,      /* a parameter is outside its range, or not a number */
-    QUADROTOR_KF_NOT_POSITIVE = -3,   /* a variance would be negative, or of an innovation not positive */
+    QUADROTOR_KF_NOT_POSITIVE = -3,   /* a variance would not be positive */
     QUADROTOR_KF_OVERFLOW = -4        /* the result would leave its range */
 } quadrotor_kf_status_t;
 
@@ -186,12 +187,10 @@ typedef struct
 } quadrotor_kf_inflate_in_t;
 
 #define QUADROTOR_KF_PARAMS_DEFAULT {1.0e-6, 1.0e-6, 1.0e-6, 1.0e-6, 1.0e-6, 1.0e-6, 1.0e-6, 1.0e-6, 1.0e-6, 1.0e-6, \
-    1.0e-6, 1.0e-6, {0.010000000000000002, 0.010000000000000002, 0.010000000000000002, 0.010000000000000002, \
-    0.010000000000000002, 0.010000000000000002, 0.010000000000000002, 0.010000000000000002, 0.010000000000000002, \
-    0.010000000000000002, 0.010000000000000002, 0.010000000000000002}, 0.0, 0U, 100.0, 0.0, 0.0, 0.0, 0.0, 30.0, 0.0, \
-    0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335, \
+    1.0e-6, 1.0e-6, {0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01}, 0.0, 0U, 100.0, 0.0, \
+    0.0, 0.0, 0.0, 30.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0033333333333333335, 0.0033333333333333335, \
     0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335, \
-    0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335}
+    0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335, 0.0033333333333333335}
 
 /* Start (or start again) from the initial estimate in the parameters; every parameter is checked here. */
 quadrotor_kf_status_t quadrotor_kf_init(quadrotor_kf_state_t *state, const quadrotor_kf_params_t *params);

@@ -184,7 +184,7 @@ def test_a_float_that_is_too_coarse_is_caught(block):
 def test_a_mismatch_fails_the_export_and_writes_nothing(block, tmp_path):
     text = emit(block)
     faulty = dataclasses.replace(text, source=sign_flipped(text.source))
-    with pytest.raises(ExportError, match=r"native = \w+.*step \d+, entry \w+, memory|outputs|status"):
+    with pytest.raises(ExportError, match=r"native = \w+.*step \d+, entry \w+, (memory|outputs|status)"):
         export(block, tmp_path, steps=30, native=NativeView(block, text=faulty))
     assert list(tmp_path.iterdir()) == []
 
@@ -225,3 +225,87 @@ def test_the_stream_of_the_traces_is_frozen():
     assert again.normal(size=3).tolist() == pytest.approx(
         [1.764052345967664, 0.4001572083672233, 0.9787379841057392], abs=0
     )
+
+
+# -- faults that an earlier cross-check let pass ------------------------------------------------------------------------
+
+REVIEWED = [
+    ("nis[0] <= gate", "nis[0] > gate"),
+    ("SWING_EKF_GATED)", "SWING_EKF_CLAMPED)"),
+    ("after->rejected_encoder + 1U", "after->rejected_encoder + 7U"),
+    ("                *after = *before;\n", ""),
+    ("params->inflation", "(50.0 + (0.5 * params->inflation))"),
+    ("(fabs(push) <= 5.0)", "(fabs(push) <= 25.0)"),
+    ("(dt <= 0.05)", "(dt <= 0.45)"),
+    ("(dt >= 0.001)", "(dt >= 0.000001)"),
+    ("(fabs(encoder) <= 1000.0)", "(fabs(encoder) <= 5000.0)"),
+    ("latest->rejected_encoder >= params->reject_limit", "latest->rejected_encoder > params->reject_limit"),
+]
+
+
+@pytest.mark.parametrize(("right", "wrong"), REVIEWED, ids=[right.strip() for right, _ in REVIEWED])
+def test_a_fault_that_was_once_missed_is_caught(block, right, wrong):
+    check = cross_check(block, views=with_c(block, lambda source: source.replace(right, wrong)), steps=60)
+    assert "native = reference" in failed(check)
+
+
+def test_a_parameter_frozen_at_its_default_is_caught():
+    plant = Plant("cart")
+    speed = plant.state("speed", range=(-100, 100))
+    mass = plant.parameter("mass", 2.0, range=(0.1, 10))
+    gust = plant.noise("gust", density=0.1)
+    plant.dynamics({speed: (gust - speed) / mass})
+    plant.sensor("wheel", speed, variance=0.1)
+    cart = extended_kalman_filter(plant.discretise("euler", dt=0.1), initial_variance={speed: 1.0})
+    assert cross_check(cart, steps=40).passed
+    views = with_c(
+        cart, lambda source: source.replace("params->mass", "2.0").replace("(2.0 >= 0.1) && (2.0 <= 10.0) && ", "")
+    )
+    assert "native = reference" in failed(cross_check(cart, views=views, steps=40))
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+def test_models_at_the_edge_pass(precision):
+    """One state; a rate that depends on nothing; kinks where the states start; a sensor that leaves P singular."""
+    from plantc.symbolic import fabs, fmax
+
+    tank = Plant("tank")
+    level = tank.state("level", unit="m")
+    rain = tank.noise("rain", density=0.1)
+    tank.dynamics({level: -fabs(level) + fmax(level, 0) + rain})
+    tank.sensor("gauge", level, unit="m", std=0.1)
+    body = Plant("body")
+    q = body.attitude("q")
+    rate = body.input("rate", size=3, unit="rad/s", range=(-40, 40))
+    noise = body.noise("rate_noise", size=3, density=1e-6, unit="rad/s")
+    body.dynamics({q: rate + noise})
+    body.sensor("accelerometer", q.to_body([0, 0, -9.81]), std=0.5, unit="m/s^2")
+    for plant, start in ((tank, {level: 1.0}), (body, {q: 0.04})):
+        made = extended_kalman_filter(plant.discretise("euler", dt=0.01), initial_variance=start)
+        check = cross_check(made, precision, steps=40)
+        assert check.passed, [(item.name, str(item.mismatch), item.note) for item in check.failures]
+
+
+def test_an_innovation_that_is_no_number_is_refused_and_not_counted():
+    from plantc.symbolic import log
+
+    plant = Plant("odd")
+    x = plant.state("x", range=(-10, 10))
+    w = plant.noise("w", density=0.1)
+    plant.dynamics({x: w - x})
+    plant.sensor("y", log(x), variance=0.1)
+    made = extended_kalman_filter(
+        plant.discretise("euler", dt=0.1), initial_variance={x: 1.0}, around={x: 2.0}, gate={"y": 4.0}
+    )
+    for view in (NativeView(made), ReferenceView(made)):
+        memory = view.memory(x=-1.0, covariance=1.0)
+        answer = view.call("update_y", memory, view.inputs("update_y", {"y": 0.0}), view.params())
+        assert answer.status.name in ("OVERFLOW", "NOT_POSITIVE")
+        assert answer.memory["rejected_y"] == 0
+
+
+def test_a_block_with_nothing_to_remember():
+    square = Block("square")
+    raw = square.input("raw", range=(-10, 10))
+    square.entry("step", inputs=[raw], outputs={"value": raw * raw})
+    assert cross_check(square, steps=20).passed

@@ -32,9 +32,9 @@ def test_literals_are_written_as_a_person_would(value, text):
 
 
 def test_what_does_not_fit_is_refused():
-    with pytest.raises(ValueError, match="single precision"):
+    with pytest.raises(OverflowError, match="single precision"):
         Precision("float").literal(1e300)
-    with pytest.raises(ValueError, match="literal"):
+    with pytest.raises(OverflowError, match="literal"):
         Precision("double").literal(float("nan"))
     with pytest.raises(ValueError, match="'half'"):
         Precision("half")
