@@ -34,7 +34,7 @@ def test_refused_with_the_reason_and_a_name_that_is_accepted(reason, name):
     assert why_not_a_name(proposal_of(str(caught.value))) is None
 
 
-@pytest.mark.parametrize("name", ["x", "theta", "B", "B2", "B101010101", "Pi", "f", "i", "a" * 48, "x_1", "Sin", "e"])
+@pytest.mark.parametrize("name", ["x", "theta", "B", "B2", "B101010101", "Pi", "f", "ii", "a" * 48, "x_1", "Sin", "e"])
 def test_accepted(name):
     assert check_name("state", name, "cart") == name
 

@@ -324,7 +324,7 @@ def test_the_noise_of_a_sensor(cart, variance, sentence):
 def test_what_a_sensor_keeps(cart):
     cart.sensor("one", cart.pos, std=3.0, unit="m", range=(0, 5))
     cart.sensor("full", [cart.pos, cart.vel], variance=[[2, 1], [1, 2]])
-    cart.sensor("own", [cart.pos, cart.vel], variance=lambda z: z[0] ** 2 + 1)
+    cart.sensor("scaled", [cart.pos, cart.vel], variance=lambda z: z[0] ** 2 + 1)
     one, full, own = cart.sensors
     assert one.strength.tolist() == [[9.0]]
     assert (one.signal.low, one.signal.high, one.signal.unit) == ((0.0,), (5.0,), "m")
@@ -349,7 +349,6 @@ def test_a_parameter_whose_name_is_generated_too(name):
 @pytest.mark.parametrize(
     ("state", "input_", "sensor", "second"),
     [
-        ("covariance", "u", "s", "t"),
         ("rejected_s", "u", "s", "t"),
         ("x", "has_s", "s", "t"),
         ("x", "u", "s", "status_s"),
@@ -547,3 +546,36 @@ def test_symbols_may_be_keys():
     x = Plant("cart").state("x")
     assert isinstance(x, Symbol)
     assert {x: 1}[x] == 1
+
+
+@pytest.mark.parametrize(
+    "name", ["covariance", "delta", "nis", "row_variance", "own", "taken", "fabsf", "UINT32_MAX", "i"]
+)
+def test_words_of_the_generated_c_are_refused_where_they_are_given(name):
+    with refuse(f"the state name '{name}' is a"):
+        Plant("cart").state(name)
+
+
+def test_one_noise_in_two_sensors_is_refused(cart):
+    shared = cart.noise("shared", variance=0.1)
+    cart.sensor("first", cart.pos + shared)
+    with refuse("the noise 'shared' enters the sensors 'first' and 'second'"):
+        cart.sensor("second", cart.pos + shared)
+
+
+def test_a_noise_that_is_used_nowhere_is_refused(cart):
+    cart.noise("idle", variance=0.1)
+    cart.sensor("gps", cart.pos, variance=1.0)
+    cart.dynamics({cart.pos: cart.vel, cart.vel: 0 * cart.vel})
+    with refuse("the noise 'idle' enters neither dynamics nor sensors"):
+        extended_kalman_filter(cart.discretise("euler", dt=0.1), initial_variance={"pos": 1, "vel": 1})
+
+
+def test_a_sensor_in_another_unit_than_the_state_it_reads(cart):
+    with refuse(r"the sensor 'gps' is in \[mm\], but reads 'pos', which is in \[m\]; convert the expression"):
+        cart.sensor("gps", cart.pos, variance=1.0, unit="mm")
+
+
+def test_a_unit_that_is_no_text():
+    with refuse("the unit of the state 'x' is 5; give it as text"):
+        Plant("cart").state("x", unit=5)
