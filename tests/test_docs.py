@@ -140,3 +140,21 @@ def test_the_documentation_builds_without_a_warning(checkout, tmp_path, needs):
     assert done.returncode == 0, done.stderr
     for page in ("index", "tour", "api"):
         assert (tmp_path / "html" / f"{page}.html").is_file()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("precision", ["double", "float"])
+@pytest.mark.parametrize("page", ["README.md", "docs/tour.md", "docs/modelling.md"])
+def test_every_filter_of_the_docs_passes_the_cross_check(page, precision, tmp_path, monkeypatch):
+    from plantc import Block, cross_check
+
+    monkeypatch.chdir(tmp_path)
+    names = {"__name__": "page"}
+    for fence in fences(ROOT / page):
+        if fence.language == "python" and "Trace" not in fence.text and "View" not in fence.text:
+            exec(compile(fence.text, page, "exec"), names)
+    blocks = {value.name: value for value in names.values() if isinstance(value, Block)}
+    assert blocks
+    for block in blocks.values():
+        check = cross_check(block, precision, steps=40)
+        assert check.passed, (block.name, [(item.name, str(item.mismatch), item.note) for item in check.failures])
