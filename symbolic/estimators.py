@@ -944,7 +944,8 @@ class _Builder:
         block.check()
         check_unique(
             [(s.name, f"the field {s.name!r}") for s in (*block.memory_signals, *block.param_signals)]
-            + [(s.signal.name, f"the input or sensor {s.signal.name!r}") for s in (*plant.inputs, *plant.sensors)],
+            + [(symbol.signal.name, f"the input {symbol.signal.name!r}") for symbol in plant.inputs]
+            + [(sensor.signal.name, f"the sensor {sensor.signal.name!r}") for sensor in plant.sensors],
             block.name,
         )
         model = self._textbook_model(measurements)
