@@ -62,7 +62,8 @@ def test_the_demo_command_needs_python_only(tmp_path):
     assert (folder / "quadrotor_ekf.svg").is_file()
 
 
-def test_ci_runs_the_test_command_of_the_readme():
+def test_ci_runs_the_test_command_of_the_readme(needs):
+    needs("sed", "grep")
     command = marked("test")
     script = ROOT / ".ci/run"
     if not script.is_file():
