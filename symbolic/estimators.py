@@ -280,6 +280,10 @@ class _Builder:
     def __init__(self, plant: Plant, options: _Options):
         self.plant, self.options = plant, options
         name = options.name
+        for what in ("initial_variance", "around", "gate"):
+            given = getattr(options, what)
+            if not isinstance(given, Mapping):
+                raise ModelError(f"{name}: {what} is {given!r}; give a dictionary, name -> number")
         if not plant.is_discrete:
             raise ModelError(
                 f"{plant.name}: an estimator runs in discrete time, and this plant is continuous; give it "

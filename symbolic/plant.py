@@ -297,6 +297,10 @@ class Plant:
                 f"{self.name}: this plant was made by discretise() and has its dynamics; call dynamics() on the continuous plant"
             )
         known = {state.signal.name: state for state in self.states}
+        if not isinstance(rates, Mapping):
+            raise ModelError(
+                f"{self.name}: dynamics are given as {type(rates).__name__}; give a dictionary, state -> expression"
+            )
         given: dict[str, ca.SX] = {}
         for key, value in rates.items():
             name = self._key("dynamics are given", key)

@@ -579,3 +579,15 @@ def test_a_sensor_in_another_unit_than_the_state_it_reads(cart):
 def test_a_unit_that_is_no_text():
     with refuse("the unit of the state 'x' is 5; give it as text"):
         Plant("cart").state("x", unit=5)
+
+
+@pytest.mark.parametrize("what", ["initial_variance", "around", "gate"])
+def test_options_that_are_no_dictionary(moving, what):
+    options = {"initial_variance": {"pos": 1, "vel": 1}, what: 5}
+    with refuse(f"{what} is 5; give a dictionary, name -> number"):
+        extended_kalman_filter(moving.discretise("euler", dt=0.1), **options)
+
+
+def test_dynamics_that_are_no_dictionary(cart):
+    with refuse("dynamics are given as list; give a dictionary, state -> expression"):
+        cart.dynamics([cart.vel, 0])
