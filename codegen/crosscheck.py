@@ -769,8 +769,3 @@ def _derivative_results(block: Block, probes: list[Probe]) -> list[CheckResult]:
                     )  # fmt: skip
         results += [exact, rough]
     return results
-
-
-def statuses_seen(check: CrossCheck) -> dict[Status, int]:
-    """Return how often each status was returned by the generated C."""
-    return {Status[name]: count for name, count in check.statuses.items()}

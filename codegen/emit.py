@@ -15,7 +15,6 @@ import jinja2
 from ..symbolic.block import Block
 from ..symbolic.errors import ModelError
 from ..symbolic.kernels import AllStatesUpdate
-from ..symbolic.names import why_not_a_name
 from ..symbolic.program import Entry, HoldVariances, walk
 from ..symbolic.signals import STATUS_TEXT, Kind, Signal, Status
 from .layout import default_text, struct_lines
@@ -359,8 +358,3 @@ def _tidy(text: str) -> str:
         if stripped or (lines and lines[-1]):
             lines.append(stripped)
     return "\n".join(lines).rstrip("\n") + "\n"
-
-
-def check_block_name(name: str) -> str | None:
-    """Say why a block cannot be exported under this name."""
-    return why_not_a_name(name)

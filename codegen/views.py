@@ -22,7 +22,6 @@ from .layout import (
     inputs_dtype,
     memory_dtype,
     outputs_dtype,
-    params_dtype,
 )
 from .style import Precision
 from .trace import Trace, TraceCall
@@ -246,8 +245,3 @@ class NativeView(View):
             arguments.append(outputs.ctypes.data_as(ctypes.c_void_p))
         status = self._functions[entry](*arguments)
         return Answer(Status(status), state, outputs)
-
-
-def record_types(block: Block, precision: Precision) -> dict[str, Any]:
-    """Return the dtypes of memory and parameters."""
-    return {"memory": memory_dtype(block, precision), "params": params_dtype(block, precision)}
