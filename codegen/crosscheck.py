@@ -15,6 +15,7 @@ import numpy as np
 from ..symbolic.block import Block, Scenario
 from ..symbolic.program import Entry
 from ..symbolic.signals import Kind, Signal, Status
+from .findings import CheckResult, Mismatch
 from .layout import fill, flatten
 from .views import Answer, InterpretView, NativeView, Record, ReferenceView, View
 
@@ -31,56 +32,6 @@ ROUNDING_GROWTH = 100.0
 DERIVATIVE_BOUND = 1e-9
 DIFFERENCE_BOUND = 1e-4
 TRACES = ("nominal", "randomised", "adversarial")
-
-
-@dataclass(frozen=True)
-class Mismatch:
-    """The first place where two views differ."""
-
-    trace: str
-    step: int
-    entry: str
-    signal: str
-    left: str
-    left_value: str
-    right: str
-    right_value: str
-    difference: float
-
-    def __str__(self) -> str:
-        return (
-            f"{self.trace} trace, step {self.step}, entry {self.entry}, {self.signal}: {self.left} gives {self.left_value}, "
-            f"{self.right} gives {self.right_value} (difference {self.difference:.3g})"
-        )
-
-
-@dataclass
-class CheckResult:
-    """One named check: what was compared, how far apart it was, whether that is accepted."""
-
-    name: str
-    passed: bool
-    worst: float = 0.0
-    limit: float = 0.0
-    calls: int = 0
-    at_switches: int = 0
-    ill_conditioned: int = 0
-    mismatch: Mismatch | None = None
-    note: str = ""
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return it for JSON."""
-        return {
-            "name": self.name,
-            "passed": self.passed,
-            "worst": float(f"{self.worst:.3g}") if math.isfinite(self.worst) else str(self.worst),
-            "limit": self.limit,
-            "calls": self.calls,
-            "at_switches": self.at_switches,
-            "ill_conditioned": self.ill_conditioned,
-            "mismatch": None if self.mismatch is None else str(self.mismatch),
-            "note": self.note,
-        }
 
 
 @dataclass

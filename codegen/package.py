@@ -18,9 +18,11 @@ import numpy as np
 from ..symbolic.block import Block
 from ..symbolic.signals import Kind, Signal
 from .compiler import contraction_flag, find_compiler
-from .crosscheck import CheckResult, CrossCheck, Mismatch, cross_check, make_views
+from .crosscheck import CrossCheck, cross_check, make_views
 from .emit import CText, emit, generator_version, templates
+from .findings import CheckResult, Findings, Mismatch
 from .layout import default_params
+from .options import Options
 from .style import Precision
 from .vectors import vectors_source, wrapped
 from .views import NativeView, View
@@ -62,6 +64,39 @@ class Export:
     def passed(self) -> bool:
         """Whether every check passed."""
         return self.check.passed
+
+
+@dataclass
+class Draft:
+    """An export before it is written: what the measurements look at.
+
+    Attributes
+    ----------
+    block : Block
+        What is exported.
+    options : Options
+        The choices.
+    text : CText
+        Its C.
+    files : dict
+        Path in the folder -> text: all that follows from model and generator alone.
+    check : CrossCheck
+        The finished cross-check; its `calls` are the traces.
+    """
+
+    block: Block
+    options: Options
+    text: CText
+    files: dict[str, str]
+    check: CrossCheck
+
+
+Measurement = Callable[[Draft], Findings]
+
+MEASUREMENTS: list[tuple[str, Measurement]] = [
+    ("vectors", lambda draft: Findings([run_vectors(draft.block.name, draft.files)])),
+]
+"""What every export that passed its cross-check is measured by, in this order: (what is being done, how)."""
 
 
 def build_files(block: Block, precision: str, check: CrossCheck) -> dict[str, str]:
@@ -140,12 +175,18 @@ def export(
         block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)
     )
     files = build_files(block, precision, check)
-    if check.passed:
-        report("vectors", 0, 1)
-        check.results.append(run_vectors(block.name, files))
     if not check.passed:
         raise ExportError(failure_text(block, check), check)
-    evidence = _evidence(block, precision, check, views.native)
+    draft = Draft(block, Options(Precision(precision)), views.native.text, files, check)
+    facts: dict[str, Any] = {}
+    for done, (what, measure) in enumerate(MEASUREMENTS):
+        report(what, done, len(MEASUREMENTS))
+        found = measure(draft)
+        check.results += found.checks
+        facts.update(found.facts)
+        if not check.passed:
+            raise ExportError(failure_text(block, check), check)
+    evidence = {**_evidence(block, precision, check, views.native), **facts}
     files["evidence.json"] = json.dumps(evidence, indent=2) + "\n"
     folder = Path(out) / block.name
     write_folder(folder, files)

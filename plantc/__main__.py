@@ -17,8 +17,8 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from . import models
 from .codegen.compiler import CompilerError
-from .codegen.crosscheck import CheckResult
 from .codegen.emit import generator_version
+from .codegen.findings import CheckResult
 from .codegen.package import (
     DesignError,
     Export,
