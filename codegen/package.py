@@ -170,14 +170,15 @@ def export(
     """
     report = progress or (lambda what, done, total: None)
     report("compile", 0, 1)
-    views = make_views(block, precision, native)
+    compiled = native or NativeView(block, precision)
+    views = make_views(block, precision, compiled)
     check = cross_check(
         block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)
     )
     files = build_files(block, precision, check)
     if not check.passed:
         raise ExportError(failure_text(block, check), check)
-    draft = Draft(block, Options(Precision(precision)), views.native.text, files, check)
+    draft = Draft(block, Options(Precision(precision)), compiled.text, files, check)
     facts: dict[str, Any] = {}
     for done, (what, measure) in enumerate(MEASUREMENTS):
         report(what, done, len(MEASUREMENTS))
@@ -186,7 +187,7 @@ def export(
         facts.update(found.facts)
         if not check.passed:
             raise ExportError(failure_text(block, check), check)
-    evidence = {**_evidence(block, precision, check, views.native), **facts}
+    evidence = {**_evidence(block, precision, check, compiled), **facts}
     files["evidence.json"] = json.dumps(evidence, indent=2) + "\n"
     folder = Path(out) / block.name
     write_folder(folder, files)
