@@ -100,7 +100,7 @@ MEASUREMENTS: list[tuple[str, Measurement]] = [
 
 
 def build_files(block: Block, precision: str, check: CrossCheck) -> dict[str, str]:
-    """Return file name -> text of everything that follows from model and generator alone."""
+    """Return path in the folder -> text of everything that follows from model and generator alone."""
     text = emit(block, precision)
     vectors, count = vectors_source(block, precision, check)
     name = block.name
@@ -120,10 +120,10 @@ def build_files(block: Block, precision: str, check: CrossCheck) -> dict[str, st
         .render(**context, entry=entry.name, inputs=inputs, outputs=bool(entry.outputs))
     )
     files = {
-        f"{name}.h": text.header,
-        f"{name}.c": text.source,
-        "test_vectors.c": vectors,
-        "example_main.c": wrapped(main),
+        f"src/{name}.h": text.header,
+        f"src/{name}.c": text.source,
+        "test/test_vectors.c": vectors,
+        "examples/example_main.c": wrapped(main),
         "CMakeLists.txt": templates().get_template("CMakeLists.txt.j2").render(**context),
     }
     files["manifest.json"] = json.dumps(_manifest(block, precision, text, files, count), indent=2) + "\n"
@@ -206,11 +206,19 @@ def write_folder(folder: Path, files: dict[str, str]) -> None:
     folder.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as name:
         fresh = Path(name)
-        for file, text in files.items():
-            (fresh / file).write_text(text)
+        write_files(fresh, files)
         folder.mkdir(exist_ok=True)
         for file in files:
+            (folder / file).parent.mkdir(parents=True, exist_ok=True)
             os.replace(fresh / file, folder / file)
+
+
+def write_files(folder: Path, files: dict[str, str]) -> None:
+    """Write files into a folder that is there; their names are paths inside it."""
+    for file, text in files.items():
+        path = folder / file
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8", newline="\n")
 
 
 def run_vectors(name: str, files: dict[str, str]) -> CheckResult:
@@ -219,14 +227,13 @@ def run_vectors(name: str, files: dict[str, str]) -> CheckResult:
     result = CheckResult("shipped vectors", True)
     with tempfile.TemporaryDirectory(prefix="plantc-") as folder_name:
         folder = Path(folder_name)
-        for file, text in files.items():
-            (folder / file).write_text(text)
-        for main in ("test_vectors.c", "example_main.c"):
-            program = compiler.program([folder / f"{name}.c", folder / main], folder / main.removesuffix(".c"))
+        write_files(folder, files)
+        for main in ("test/test_vectors.c", "examples/example_main.c"):
+            program = compiler.program([folder / f"src/{name}.c", folder / main], folder / Path(main).stem)
             done = subprocess.run([str(program)], capture_output=True, text=True, check=False, timeout=60)
-            if main == "test_vectors.c":
+            if main == "test/test_vectors.c":
                 result.calls = int(done.stdout.strip().split("\n")[-1].split(" ")[0]) if done.stdout.strip() else 0
-            if done.returncode != 0 and main == "test_vectors.c":
+            if done.returncode != 0 and main == "test/test_vectors.c":
                 result.passed = False
                 result.note = done.stdout.strip()[:500] or f"{main} ended with {done.returncode}"
     return result
@@ -258,8 +265,9 @@ def check_folder(
     present = {file: (folder / file).read_text() for file in manifest["files"] if (folder / file).is_file()}
     missing = [file for file in manifest["files"] if file not in present]
     native = None
-    if f"{name}.h" in present and f"{name}.c" in present and manifest["model"] == block.model_hash():
-        lying = CText(name, Precision(precision), present[f"{name}.h"], present[f"{name}.c"], {})
+    header, source = present.get(f"src/{name}.h"), present.get(f"src/{name}.c")
+    if header is not None and source is not None and manifest["model"] == block.model_hash():
+        lying = CText(name, Precision(precision), header, source, {})
         native = NativeView(block, precision, text=lying)
     views = make_views(block, precision, native)
     check = cross_check(

@@ -18,12 +18,12 @@ def exported(tmp_path_factory):
 
 
 def test_the_files_are_those_promised(exported):
-    names = {path.name for path in exported.folder.iterdir()}
+    names = {path.relative_to(exported.folder).as_posix() for path in exported.folder.rglob("*") if path.is_file()}
     assert names == {
-        "pendulum_ekf.h", "pendulum_ekf.c", "test_vectors.c", "example_main.c", "CMakeLists.txt", "manifest.json",
-        "evidence.json",
+        "src/pendulum_ekf.h", "src/pendulum_ekf.c", "test/test_vectors.c", "examples/example_main.c", "CMakeLists.txt",
+        "manifest.json", "evidence.json",
     }  # fmt: skip
-    for path in exported.folder.glob("*.c"):
+    for path in exported.folder.rglob("*.c"):
         library = path.name == "pendulum_ekf.c"
         assert library != any(word in path.name for word in ("main", "test", "vectors"))
         assert library or "int main(void)" in path.read_text()
@@ -43,16 +43,16 @@ def test_manifest_and_evidence_say_what_was_done(exported):
 
 
 def test_the_vectors_reach_every_status_that_the_check_reached_and_can_fail(exported, tmp_path):
-    text = (exported.folder / "test_vectors.c").read_text()
+    text = (exported.folder / "test/test_vectors.c").read_text()
     for status in ("OK", "BAD_INPUT", "BAD_PARAM", "OVERFLOW", "RECOVERED", "SKIPPED"):
         assert f"PENDULUM_EKF_{status}" in text
     folder = tmp_path / "copy"
     shutil.copytree(exported.folder, folder)
-    source = (folder / "pendulum_ekf.c").read_text()
-    files = {path.name: path.read_text() for path in folder.iterdir()}
+    source = (folder / "src/pendulum_ekf.c").read_text()
+    files = {path.relative_to(folder).as_posix(): path.read_text() for path in folder.rglob("*") if path.is_file()}
     assert package.run_vectors("pendulum_ekf", files).passed
-    files["pendulum_ekf.c"] = source.replace("delta[0] = ", "delta[0] = 1.1f * ", 1)
-    assert files["pendulum_ekf.c"] != source
+    files["src/pendulum_ekf.c"] = source.replace("delta[0] = ", "delta[0] = 1.1f * ", 1)
+    assert files["src/pendulum_ekf.c"] != source
     broken = package.run_vectors("pendulum_ekf", files)
     assert not broken.passed
     assert "differ" in broken.note
@@ -70,12 +70,12 @@ def test_check_finds_what_was_changed(exported, tmp_path):
     folder = tmp_path / "pendulum_ekf"
     shutil.copytree(exported.folder, folder)
     assert check_folder(folder, pendulum_ekf, steps=STEPS).passed
-    source = folder / "pendulum_ekf.c"
+    source = folder / "src/pendulum_ekf.c"
     source.write_text(source.read_text().replace("0.5f", "0.51f", 1))
     (folder / "CMakeLists.txt").unlink()
     found = check_folder(folder, pendulum_ekf, steps=STEPS)
     assert not found.passed
-    assert "pendulum_ekf.c" in found.changed
+    assert "src/pendulum_ekf.c" in found.changed
     assert found.missing == ["CMakeLists.txt"]
 
 
@@ -101,8 +101,9 @@ def test_writing_is_whole_and_keeps_other_files(tmp_path):
     folder = tmp_path / "x"
     folder.mkdir()
     (folder / "notes.txt").write_text("mine")
-    write_folder(folder, {"a.c": "1", "b.h": "2"})
-    assert {path.name for path in folder.iterdir()} == {"notes.txt", "a.c", "b.h"}
+    write_folder(folder, {"a.c": "1", "deep/down/b.h": "2"})
+    assert {path.name for path in folder.iterdir()} == {"notes.txt", "a.c", "deep"}
+    assert (folder / "deep/down/b.h").read_text() == "2"
     with pytest.raises(TypeError):
         write_folder(folder, {"a.c": "new", "b.h": 3})
     assert (folder / "a.c").read_text() == "1"

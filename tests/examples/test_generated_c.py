@@ -18,7 +18,7 @@ FOLDER = Path(__file__).resolve().parents[2] / "generated_c"
 def test_regenerating_gives_the_same_bytes(block, precision):
     files = build_files(block, precision, cross_check(block, precision))
     folder = FOLDER / block.name
-    lying = {path.name for path in folder.iterdir()}
+    lying = {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
     assert lying == set(files) | MEASURED, "run python -m plantc.regenerate"
     for name, text in files.items():
         assert (folder / name).read_text() == text, f"{name} differs: run python -m plantc.regenerate"
