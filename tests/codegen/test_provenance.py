@@ -1,5 +1,7 @@
 """Every line of the C has a parent, and a line without one is found."""
 
+import importlib
+
 import pytest
 from plantc.codegen import writer
 from plantc.codegen.emit import emit
@@ -82,7 +84,7 @@ def test_a_helper_function_without_a_purpose_is_found(monkeypatch):
     def silent(prefix, *args):
         return ["", f"static int {prefix}_odd(void)", "{", "    return 1;", "}"]
 
-    monkeypatch.setattr("plantc.codegen.emit.bounded_helper", silent)
+    monkeypatch.setattr(importlib.import_module("plantc.codegen.emit"), "bounded_helper", silent)
     text = emit(pendulum_ekf, "float")
     assert [text.source.split("\n")[k - 1] for k in orphans(text.source, text.provenance)] == [
         "static int pendulum_ekf_odd(void)", "{", "    return 1;", "}",
