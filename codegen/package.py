@@ -17,6 +17,7 @@ import numpy as np
 from ..symbolic.block import Block
 from ..symbolic.signals import Kind, Signal
 from .compiler import contraction_flag, find_compiler
+from .coverage import measure_coverage
 from .crosscheck import CrossCheck, cross_check, make_probes, make_views
 from .emit import CText, emit, generator_version, templates
 from .findings import CheckResult, Findings, Mismatch
@@ -101,6 +102,7 @@ Measurement = Callable[[Draft], Findings]
 
 MEASUREMENTS: list[tuple[str, Measurement]] = [
     ("vectors", lambda draft: Findings([run_vectors(draft.block.name, draft.files)])),
+    ("coverage", lambda draft: _coverage(draft)),
 ]
 """What every export that passed its cross-check is measured by, in this order: (what is being done, how)."""
 
@@ -147,6 +149,12 @@ def build_files(block: Block, options: Options | str = "double") -> dict[str, st
     manifest = _manifest(block, precision, text, files, len(vectors.vectors))
     files["manifest.json"] = json.dumps(manifest, indent=2) + "\n"
     return files
+
+
+def _coverage(draft: Draft) -> Findings:
+    return measure_coverage(
+        draft.block, draft.options.precision.name, draft.files, draft.text.provenance, draft.check.calls
+    )
 
 
 def _rare_calls(block: Block, precision: str) -> CrossCheck:

@@ -207,6 +207,8 @@ class NativeView(View):
         C to use instead of what `emit` gives: for tests that plant a fault.
     contract : bool
         Whether a product and a sum may be fused.
+    library : Path, optional
+        A library that was built already; then nothing is compiled.
 
     Raises
     ------
@@ -216,11 +218,20 @@ class NativeView(View):
 
     name = "native"
 
-    def __init__(self, block: Block, precision: str = "double", *, text: CText | None = None, contract: bool = False):
+    def __init__(
+        self,
+        block: Block,
+        precision: str = "double",
+        *,
+        text: CText | None = None,
+        contract: bool = False,
+        library: Path | None = None,
+    ):
         super().__init__(block, precision)
         self.text = text or emit(block, precision)
         name = block.name
-        self.path: Path = library_for({f"{name}.h": self.text.header, f"{name}.c": self.text.source}, contract=contract)
+        sources = {f"{name}.h": self.text.header, f"{name}.c": self.text.source}
+        self.path: Path = library or library_for(sources, contract=contract)
         self.library = ctypes.CDLL(str(self.path))
         self._has_params = bool(block.param_group().members)
         self._functions: dict[str, Any] = {}
