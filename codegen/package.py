@@ -118,7 +118,7 @@ def build_files(block: Block, options: Options | str = "double") -> dict[str, st
     """
     chosen = options if isinstance(options, Options) else Options(Precision(options))
     precision = chosen.precision.name
-    text = emit(block, precision)
+    text = emit(block, precision, mathematics=chosen.mathematics)
     vectors, count = vectors_source(block, precision, _rare_calls(block, precision))
     name = block.name
     context = {
@@ -204,7 +204,7 @@ def export(
     folder = Path(out) / block.name
     check_folder_is_free(folder)
     report("compile", 0, 1)
-    compiled = native or NativeView(block, precision)
+    compiled = native or NativeView(block, precision, text=emit(block, precision, mathematics=chosen.mathematics))
     views = make_views(block, precision, compiled)
     check = cross_check(
         block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)
