@@ -54,7 +54,7 @@ CORRECTIONS = {
     "tan": Correction(_odd(mp.tan), mp.mpf(0), (mp.pi / 4) ** 2, 8, 15),
     "asin": Correction(_odd(mp.asin), mp.mpf(0), mp.mpf("0.25"), 6, 13),
     "atan": Correction(_odd(mp.atan), mp.mpf(0), mp.mpf("0.25"), 6, 13),
-    "exp": Correction(_exponential, -mp.log(2) / 2, mp.log(2) / 2, 5, 11),
+    "exp": Correction(_exponential, -mp.log(2) / 2, mp.log(2) / 2, 6, 12),
     "log": Correction(_logarithm, mp.mpf(0), (3 - 2 * mp.sqrt(2)) ** 2, 3, 7),
     "tanh": Correction(_odd(mp.tanh), mp.mpf(0), mp.mpf("0.3025"), 6, 11),
     "sinh": Correction(_odd(mp.sinh), mp.mpf(0), mp.mpf(1), 4, 7),
@@ -102,6 +102,10 @@ def coefficients() -> dict[str, dict[str, tuple[float, ...]]]:
     return answer
 
 
+def _value(polynomial_of_z: list[mp.mpf], z: mp.mpf) -> mp.mpf:
+    return sum(value * z**k for k, value in enumerate(polynomial_of_z))
+
+
 def truncation(name: str, terms: int) -> float:
     """Return the largest |polynomial - g| on the interval, before the coefficients are rounded."""
     correction = CORRECTIONS[name]
@@ -110,7 +114,7 @@ def truncation(name: str, terms: int) -> float:
     for k in range(1, 400):
         z = correction.low + (correction.high - correction.low) * k / mp.mpf(400)
         if abs(z) > mp.mpf("1e-9"):
-            worst = max(worst, abs(mp.polyval(values[::-1], z) - correction.g(z)))
+            worst = max(worst, abs(_value(values, z) - correction.g(z)))
     return float(worst)
 
 
