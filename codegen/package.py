@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import platform
 import subprocess
 import tempfile
@@ -18,17 +17,18 @@ import numpy as np
 from ..symbolic.block import Block
 from ..symbolic.signals import Kind, Signal
 from .compiler import contraction_flag, find_compiler
-from .crosscheck import CrossCheck, cross_check, make_views
+from .crosscheck import CrossCheck, cross_check, make_probes, make_views
 from .emit import CText, emit, generator_version, templates
 from .findings import CheckResult, Findings, Mismatch
+from .folder import MEASURED, FolderError, check_folder_is_free, read_manifest, write_files, write_folder
 from .layout import default_params
 from .options import Options
 from .style import Precision
 from .vectors import vectors_source, wrapped
 from .views import NativeView, View
 
-MEASURED = frozenset({"evidence.json"})
-"""Files that hold what was measured on a machine; all others are the same bytes anywhere."""
+VECTOR_STEPS = 100
+"""Length of the nominal trace from which vectors are chosen, however long that of the cross-check is."""
 
 NOT_CHECKED = [
     "whether the user's dynamics and sensors describe the real plant",
@@ -54,11 +54,16 @@ class Export:
     """What an export produced."""
 
     block: Block
-    precision: str
+    options: Options
     folder: Path
     files: dict[str, str]
     check: CrossCheck
     evidence: dict[str, Any]
+
+    @property
+    def precision(self) -> str:
+        """Type of real numbers in the C."""
+        return self.options.precision.name
 
     @property
     def passed(self) -> bool:
@@ -99,10 +104,22 @@ MEASUREMENTS: list[tuple[str, Measurement]] = [
 """What every export that passed its cross-check is measured by, in this order: (what is being done, how)."""
 
 
-def build_files(block: Block, precision: str, check: CrossCheck) -> dict[str, str]:
-    """Return path in the folder -> text of everything that follows from model and generator alone."""
+def build_files(block: Block, options: Options | str = "double") -> dict[str, str]:
+    """Return path in the folder -> text of everything that follows from model and generator alone.
+
+    Nothing is checked and nothing measured: this is what `export` writes, and what `plantc check` compares with.
+
+    Parameters
+    ----------
+    block : Block
+        What is written.
+    options : Options, or {"double", "float"}
+        The choices.
+    """
+    chosen = options if isinstance(options, Options) else Options(Precision(options))
+    precision = chosen.precision.name
     text = emit(block, precision)
-    vectors, count = vectors_source(block, precision, check)
+    vectors, count = vectors_source(block, precision, _rare_calls(block, precision))
     name = block.name
     context = {
         "name": name,
@@ -112,8 +129,7 @@ def build_files(block: Block, precision: str, check: CrossCheck) -> dict[str, st
         "params": bool(block.param_group().members),
     }
     entry = block.entries["step"] if "step" in block.entries else list(block.entries.values())[-1]
-    kind = Precision(precision)
-    inputs = _middle_text(entry.inputs, kind)
+    inputs = _middle_text(entry.inputs, chosen.precision)
     main = (
         templates()
         .get_template("example_main.c.j2")
@@ -130,11 +146,21 @@ def build_files(block: Block, precision: str, check: CrossCheck) -> dict[str, st
     return files
 
 
+def _rare_calls(block: Block, precision: str) -> CrossCheck:
+    """Return calls from which the vectors are chosen, answered by the model's own C: those of a default cross-check."""
+    native = NativeView(block, precision)
+    probes = make_probes(block, precision, make_views(block, precision, native), VECTOR_STEPS, 0)
+    for probe in probes:
+        probe.answer = native.call(probe.entry, probe.memory, probe.inputs, probe.params)
+    return CrossCheck([], {}, probes)
+
+
 def export(
     block: Block,
     out: Path | str,
     *,
     precision: str = "double",
+    options: Options | None = None,
     steps: int = 100,
     progress: Callable[[str, int, int], None] | None = None,
     native: NativeView | None = None,
@@ -149,6 +175,8 @@ def export(
         Folder that gets a folder named after the block.
     precision : {"double", "float"}
         Type of real numbers in the C.
+    options : Options, optional
+        All choices; then `precision` is not looked at.
     steps : int
         Length of the nominal trace of the cross-check.
     progress : callable, optional
@@ -165,20 +193,26 @@ def export(
     ------
     CompilerError
         If there is no C compiler.
+    FolderError
+        If the folder cannot be written, or holds someone else's files.
     ExportError
         If a check failed. Nothing is written; what was there stays.
     """
     report = progress or (lambda what, done, total: None)
+    chosen = options or Options(Precision(precision))
+    precision = chosen.precision.name
+    folder = Path(out) / block.name
+    check_folder_is_free(folder)
     report("compile", 0, 1)
     compiled = native or NativeView(block, precision)
     views = make_views(block, precision, compiled)
     check = cross_check(
         block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)
     )
-    files = build_files(block, precision, check)
     if not check.passed:
         raise ExportError(failure_text(block, check), check)
-    draft = Draft(block, Options(Precision(precision)), compiled.text, files, check)
+    files = build_files(block, chosen)
+    draft = Draft(block, chosen, compiled.text, files, check)
     facts: dict[str, Any] = {}
     for done, (what, measure) in enumerate(MEASUREMENTS):
         report(what, done, len(MEASUREMENTS))
@@ -189,9 +223,8 @@ def export(
             raise ExportError(failure_text(block, check), check)
     evidence = {**_evidence(block, precision, check, compiled), **facts}
     files["evidence.json"] = json.dumps(evidence, indent=2) + "\n"
-    folder = Path(out) / block.name
     write_folder(folder, files)
-    return Export(block, precision, folder, files, check, evidence)
+    return Export(block, chosen, folder, files, check, evidence)
 
 
 def failure_text(block: Block, check: CrossCheck) -> str:
@@ -199,26 +232,6 @@ def failure_text(block: Block, check: CrossCheck) -> str:
     first = check.failures[0]
     why = str(first.mismatch) if first.mismatch is not None else first.note
     return f"{block.name}: the check {first.name!r} failed: {why}"
-
-
-def write_folder(folder: Path, files: dict[str, str]) -> None:
-    """Replace a folder by these files, whole or not at all. Other files that lie there stay."""
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as name:
-        fresh = Path(name)
-        write_files(fresh, files)
-        folder.mkdir(exist_ok=True)
-        for file in files:
-            (folder / file).parent.mkdir(parents=True, exist_ok=True)
-            os.replace(fresh / file, folder / file)
-
-
-def write_files(folder: Path, files: dict[str, str]) -> None:
-    """Write files into a folder that is there; their names are paths inside it."""
-    for file, text in files.items():
-        path = folder / file
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8", newline="\n")
 
 
 def run_vectors(name: str, files: dict[str, str]) -> CheckResult:
@@ -273,36 +286,12 @@ def check_folder(
     check = cross_check(
         block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)
     )
-    # the vectors follow from the model's own C, so that a fault in the folder cannot write itself into them
-    pristine = check if native is None else cross_check(block, precision, steps=steps)
-    expected = build_files(block, precision, pristine)
+    expected = build_files(block, precision)
     changed = [file for file, text in expected.items() if file in present and present[file] != text]
     stored = folder / "manifest.json"
     if stored.is_file() and stored.read_text() != expected["manifest.json"] and "manifest.json" not in changed:
         changed.append("manifest.json")
     return FolderCheck(folder, changed, missing, check)
-
-
-def read_manifest(folder: Path) -> dict[str, Any]:
-    """Return a folder's manifest.
-
-    Raises
-    ------
-    FileNotFoundError
-        If there is none, in a sentence.
-    """
-    path = folder / "manifest.json"
-    try:
-        manifest = json.loads(path.read_text())
-    except FileNotFoundError:
-        raise FileNotFoundError(
-            f"{folder}: there is no manifest.json; give a folder that plantc export wrote"
-        ) from None
-    except json.JSONDecodeError as error:
-        raise FileNotFoundError(f"{path}: not readable as JSON ({error}); export again") from None
-    if not isinstance(manifest, dict) or not {"name", "model", "precision", "files"} <= manifest.keys():
-        raise FileNotFoundError(f"{path}: not a manifest of plantc; export again")
-    return manifest
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -449,11 +438,13 @@ def design_residuals(block: Block) -> list[CheckResult]:
 
 
 __all__ = [
+    "MEASURED",
     "CheckResult",
     "DesignError",
     "Export",
     "ExportError",
     "FolderCheck",
+    "FolderError",
     "Mismatch",
     "build_files",
     "check_folder",

@@ -492,7 +492,8 @@ class CoreWriter:
         self._line("")
         for line in kernel.comment:
             self._comment(line)
-        self._loop(size, f"work.{first.delta.name}[i] = {zero};")
+        for i in range(size):  # no loop: gcc's analyzer takes it to leave elements unset
+            self._line(f"work.{first.delta.name}[{i}] = {zero};")
         self._line(f"work.{first.nis.name} = {zero};")
         spare, target = "spare_covariance", self._base(first.target)
         source = self._base(first.p)
@@ -623,6 +624,8 @@ class CoreWriter:
                 if node.operation not in ("const", "load"):
                     self._bind(node, uses)
                 continue
+            if node.operation == "load" and node.element == (*slot, self.versions[slot[0]]):
+                continue  # it is there already
             text = self._expression(node, uses, top=True)
             shadowed = loads.get((slot[0], slot[1]))
             if shadowed is not None and shadowed not in self.bound and uses[shadowed] > 0:
@@ -749,31 +752,34 @@ class CoreWriter:
         self._line(f"{self.root}_status_t status = {self.call_text(first, 'before', 'latest')};")
         self._line("")
         self._open(f"if (status >= {u}_OK)")
-        for statement in rest:
-            self._sequenced(statement)
+        self._all_sequenced(rest, more=False)
         self._line("*after = *latest;")
         self._close()
         self._line("return status;")
 
-    def _sequenced(self, statement: Statement) -> None:
+    def _all_sequenced(self, statements: Sequence[Statement], *, more: bool) -> None:
+        """Write statements one after the other; `more`: whether attempts follow after them."""
+        for k, statement in enumerate(statements):
+            later = any(isinstance(item, Attempt) for item in walk(statements[k + 1 :]))
+            self._sequenced(statement, more=more or later)
+
+    def _sequenced(self, statement: Statement, *, more: bool) -> None:
         if isinstance(statement, When):
             self._comment(statement.comment)
             self._condition_head("if ", _on_latest(statement.condition), "")
             self._open()
-            for item in statement.then:
-                self._sequenced(item)
+            self._all_sequenced(statement.then, more=more)
             self._close()
             if statement.otherwise:
                 self._open("else")
-                for item in statement.otherwise:
-                    self._sequenced(item)
+                self._all_sequenced(statement.otherwise, more=more)
                 self._close()
         elif isinstance(statement, Attempt):
-            self._attempt(statement)
+            self._attempt(statement, more=more)
         else:
             self._one(statement)
 
-    def _attempt(self, statement: Attempt) -> None:
+    def _attempt(self, statement: Attempt, *, more: bool) -> None:
         p, u = self.prefix, self.upper
         calls = statement.calls
         self._line(
@@ -791,18 +797,19 @@ class CoreWriter:
             self._close()
         self._line(f"out->{statement.status.name} = own;")
         self._open(f"if (own >= {u}_OK)")
-        self._line(f"{p}_state_t *const taken = spare;")
-        self._line("")
-        self._line("spare = latest;")
-        self._line("latest = taken;")
+        if more:
+            self._line(f"{p}_state_t *const taken = spare;")
+            self._line("")
+            self._line("spare = latest;")
+            self._line("latest = taken;")
+        else:
+            self._line("latest = spare;")
         self._line(f"status = {self.root}_higher({'highest' if len(calls) > 1 else 'status'}, own);")
         self.functions.add("higher")
-        for item in statement.accepted:
-            self._sequenced(item)
+        self._all_sequenced(statement.accepted, more=more)
         self._close()
         self._open("else")
-        for item in statement.on_refused:
-            self._sequenced(item)
+        self._all_sequenced(statement.on_refused, more=more)
         self._close()
 
 
