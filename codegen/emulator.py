@@ -228,6 +228,12 @@ class TargetView(View):
             self._note(call.entry, Measured(round(ticks) + 1, int(told["stack"])))
         return answers
 
+    def emulator_version(self) -> str:
+        """Return program, machine and version of the emulator."""
+        done = subprocess.run([self.emulator, "--version"], capture_output=True, text=True, check=False)
+        said = done.stdout.strip().split("\n")[0]
+        return f"{self.target.emulator} {' '.join(self.target.machine)} ({said})"
+
     def _note(self, entry: str, cost: Measured) -> None:
         self.last.append(cost)
         known = self.most.get(entry, cost)

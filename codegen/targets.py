@@ -195,11 +195,23 @@ class Toolchain:
         if self.kind == "host":
             return BASE_FLAGS
         if self.kind == "zig":
-            unwanted = ("-fno-asynchronous-unwind-tables", "-fno-unwind-tables", "-fno-sanitize=all", "-fno-stack-protector")
+            unwanted = (
+                "-fno-asynchronous-unwind-tables",
+                "-fno-unwind-tables",
+                "-fno-sanitize=all",
+                "-fno-stack-protector",
+            )
             # freestanding turns builtins off, and with them the FPU's own instructions for fabs and sqrt
             return (*BASE_FLAGS, *self.target.zig_flags, "-fbuiltin", "-fno-short-enums", *unwanted, "-Ishim")
         # enums as wide as on the host, so that the structs are laid out alike
-        return (*BASE_FLAGS, *self.target.flags, "-fno-short-enums", "-fno-math-errno", "-ffunction-sections", "-fdata-sections")
+        return (
+            *BASE_FLAGS,
+            *self.target.flags,
+            "-fno-short-enums",
+            "-fno-math-errno",
+            "-ffunction-sections",
+            "-fdata-sections",
+        )
 
     def as_dict(self, contract: bool) -> dict[str, object]:
         """Return it for the evidence."""
@@ -357,6 +369,10 @@ class Sizes:
     text: int
     data: int
     bss: int
+
+    def as_dict(self) -> dict[str, int]:
+        """Return it for the evidence."""
+        return {"text": self.text, "data": self.data, "bss": self.bss}
 
     @classmethod
     def of(cls, path: Path) -> Sizes | None:
