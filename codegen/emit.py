@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
@@ -18,6 +18,7 @@ from ..symbolic.kernels import AllStatesUpdate
 from ..symbolic.program import Entry, HoldVariances, walk
 from ..symbolic.signals import STATUS_TEXT, Kind, Signal, Status
 from .layout import default_text, struct_lines
+from .provenance import Genealogy, Parent, Provenance, TracedLines, marked, unmarked
 from .rows import bounded_helper, pair_helpers
 from .style import WIDTH, Precision, comment_lines, comment_safe, wrap_line
 from .writer import CoreWriter, Style, core_name, has_outputs, is_sequenced, needs_params, style_for, wrap_signature
@@ -58,6 +59,8 @@ class CText:
         The two files.
     operations : dict
         Entry -> count of operations by kind.
+    provenance : Provenance
+        What each line of the source is there for.
     """
 
     name: str
@@ -65,6 +68,7 @@ class CText:
     header: str
     source: str
     operations: dict[str, dict[str, int]]
+    provenance: Provenance = field(default_factory=Provenance)
 
 
 def emit(block: Block, precision: str | Precision = "double", style: Style | None = None) -> CText:
@@ -96,6 +100,7 @@ class _Emitter:
     def text(self) -> CText:
         """Write both files."""
         cores = self._cores(self.block, self.name)
+        parents: list[Parent] = []
         publics = [line for entry in self.block.entries.values() for line in ["", *self._public(entry)]]
         context = {
             "name": self.name,
@@ -123,9 +128,10 @@ class _Emitter:
         source = (
             templates()
             .get_template("source.c.j2")
-            .render(**context, cores="\n".join(cores), publics="\n".join(publics))
+            .render(**context, cores=marked(cores, parents), publics=marked(publics, parents))
         )
-        return CText(self.name, self.precision, _tidy(header), _tidy(source), self.operations)
+        clean, provenance = unmarked(_tidy(source), parents)
+        return CText(self.name, self.precision, _tidy(header), clean, self.operations, provenance)
 
     # -- header -------------------------------------------------------------------------------------------------------
 
@@ -271,7 +277,10 @@ class _Emitter:
 
     def _public(self, entry: Entry) -> list[str]:
         p, u = self.name, self.name.upper()
-        lines = [*wrap_signature(self._public_signature(entry)), "{"]
+        commit = Genealogy(self.block, entry).parent(
+            "commit", "memory and outputs are written where the status is not negative"
+        )
+        lines = TracedLines([*wrap_signature(self._public_signature(entry)), "{"], commit)
         sequenced = is_sequenced(entry)
         target = "state" if sequenced else "&after"
         arguments = [] if entry.checks_params else ["state"]
@@ -295,7 +304,8 @@ class _Emitter:
         )
         if commits:
             lines += ["", f"    if (status >= {u}_OK)", "    {", *commits, "    }"]
-        return [*lines, "    return status;", "}"]
+        lines += ["    return status;", "}"]
+        return lines
 
     def _hold_variances(self, hold: HoldVariances, prefix: str) -> list[str]:
         """Write the rare path of `HoldVariances`: compact loops, called only when a variance left its bounds."""

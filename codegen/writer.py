@@ -41,6 +41,7 @@ from ..symbolic.program import (
 )
 from ..symbolic.signals import Kind, Signal, Status
 from .graph import Graph, Node
+from .provenance import Genealogy, Parent, TracedLines
 from .rows import pair_operations
 from .style import WIDTH, Precision, comment_lines, wrap_line
 
@@ -76,7 +77,7 @@ def style_for(precision: Precision) -> Style:
 class CoreText:
     """A core function and what it needs."""
 
-    lines: list[str]
+    lines: TracedLines
     operations: Counter[str]
     functions: set[str]
 
@@ -104,7 +105,10 @@ class CoreWriter:
         self.precision = style.precision
         self.upper = root.upper()
         self.graph = Graph()
-        self.lines: list[str] = []
+        path = prefix.removeprefix(root).removeprefix("_")
+        self.genealogy = Genealogy(block, entry, f"{path}." if path else "")
+        self.lines = TracedLines()
+        self.opened: list[Parent | None] = []
         self.indent = "    "
         self.names: list[set[str]] = [set(_RESERVED) | {signal.name for signal in self._arguments()}]
         self.bound: dict[Node, str] = {}
@@ -149,7 +153,8 @@ class CoreWriter:
         else:
             self._plain()
         head = wrap_signature(self.signature())
-        return CoreText([*head, "{", *self.lines, "}"], self.operations, self.functions)
+        frame = self.genealogy.parent("entry", self.entry.doc or f"the entry {self.entry.name}")
+        return CoreText(TracedLines([*head, "{", *self.lines, "}"], frame), self.operations, self.functions)
 
     def _plain(self) -> None:
         entry = self.entry
@@ -163,13 +168,15 @@ class CoreWriter:
         untouched = self._untouched(body)
         self._statements(body)
         text = self.lines
-        self.lines = []
+        self.lines = TracedLines(parent=self._bookkeeping("numbers that stages hand on"))
         for place, size in self.arrays.items():
             self._line(f"{self.precision.name} {place.name}[{size}];")
         for text_of in self.declared:
             self._line(text_of)
+        self._bookkeeping("the status to be returned")
         self._line(f"{self.root}_status_t status = {u}_OK;")
         self._line("")
+        self._bookkeeping("fields that the entry leaves alone are carried over")
         for signal in untouched:
             self._copy_field(signal)
         if untouched:
@@ -179,6 +186,7 @@ class CoreWriter:
         if not self.entry.checks_params and not any("before" in line for line in (*self.lines, *text)):
             self._line("(void)before;")
         self.lines += text
+        self._bookkeeping("the status to be returned")
         self._line("return status;")
 
     def _untouched(self, body: Sequence[Statement]) -> list[Signal]:
@@ -213,6 +221,11 @@ class CoreWriter:
 
     # -- text helpers -------------------------------------------------------------------------------------------------
 
+    def _bookkeeping(self, what: str) -> Parent:
+        """Have the lines that follow belong to bookkeeping of a named kind."""
+        self.lines.parent = self.genealogy.parent("bookkeeping", what)
+        return self.lines.parent
+
     def _line(self, text: str) -> None:
         if not text:
             if self.lines and self.lines[-1] and not self.lines[-1].strip().endswith("{"):
@@ -224,6 +237,7 @@ class CoreWriter:
         if head:
             self._line(head)
         self._line("{")
+        self.opened.append(self.lines.parent)
         self.indent += "    "
         self.names.append(set())
 
@@ -232,6 +246,7 @@ class CoreWriter:
         self.indent = self.indent[:-4]
         if self.lines and not self.lines[-1]:
             self.lines.pop()
+        self.lines.parent = self.opened.pop()
         self._line("}")
 
     def _comment(self, text: str) -> None:
@@ -254,6 +269,7 @@ class CoreWriter:
         while index < len(body):
             statement = body[index]
             rest = body[index + 1 :]
+            self.lines.parent = self.genealogy.of(statement)
             if isinstance(statement, AllStatesUpdate):
                 self._all_states(statement)
                 index += 1
@@ -545,7 +561,9 @@ class CoreWriter:
         inputs = [[node for place, size in places for node in self._read(place, size)] for places in statement.reads]
         outputs = self.graph.from_tape(tape(statement.function), inputs)
         stores: list[tuple[Slot | None, Node]] = []
-        for values, places, names in zip(outputs, statement.writes, statement.names, strict=True):
+        parents: list[Parent] = []
+        for k, (values, places, names) in enumerate(zip(outputs, statement.writes, statement.names, strict=True)):
+            parents += [self.genealogy.of_output(statement, k, i) for i in range(len(values))]
             start = 0
             for place, size in places:
                 own = values[start : start + size]
@@ -562,7 +580,7 @@ class CoreWriter:
             self._line("")
         for line in statement.comment:
             self._comment(line)
-        self._emit(stores)
+        self._emit(stores, parents)
         for places in statement.writes:
             for place, _ in places:
                 self.versions[place] += 1
@@ -590,6 +608,7 @@ class CoreWriter:
                         pending[place, i] = self.graph.const(node) if isinstance(node, float) else node
             comments += kernel.comment
         self._line("")
+        self.lines.parent = self.genealogy.of_kernels(group)
         for line in comments:
             self._comment(line)
         outer = dict(self.bound)
@@ -600,10 +619,11 @@ class CoreWriter:
         for place, _ in pending:
             self.versions[place] += 1
 
-    def _emit(self, stores: Sequence[tuple[Slot | None, Node]]) -> None:
+    def _emit(self, stores: Sequence[tuple[Slot | None, Node]], parents: Sequence[Parent] = ()) -> None:
         """Print values in order: constants on lines of their own, then the stores.
 
-        An element that is both read and overwritten is read first.
+        An element that is both read and overwritten is read first. A line that several values need belongs to the parent
+        of the first.
         """
         uses: Counter[Node] = Counter()
         seen: set[Node] = set()
@@ -619,7 +639,9 @@ class CoreWriter:
                 uses[argument] += 1
                 stack.append(argument)
         loads = {node.element[:2]: node for node in seen if node.operation == "load"}
-        for slot, node in stores:
+        for k, (slot, node) in enumerate(stores):
+            if parents:
+                self.lines.parent = parents[k]
             if slot is None:
                 if node.operation not in ("const", "load"):
                     self._bind(node, uses)
@@ -743,18 +765,22 @@ class CoreWriter:
         p, u = self.prefix, self.upper
         attempts = [item for item in walk(self.entry.body) if isinstance(item, Attempt)]
         depth = max((len(item.calls) for item in attempts), default=1)
+        self._bookkeeping("the latest memory, and spare ones for what may be refused")
         self._line(f"{p}_state_t work[{2 + max(0, depth - 1)}];")
         self._line(f"{p}_state_t *latest = &work[0];")
         if attempts:
             self._line(f"{p}_state_t *spare = &work[1];")
         first, *rest = self.entry.body
         assert isinstance(first, Call)
+        self.lines.parent = self.genealogy.of(first)
         self._line(f"{self.root}_status_t status = {self.call_text(first, 'before', 'latest')};")
         self._line("")
         self._open(f"if (status >= {u}_OK)")
         self._all_sequenced(rest, more=False)
+        self.lines.parent = self.genealogy.parent("commit", "the latest memory is the answer")
         self._line("*after = *latest;")
         self._close()
+        self._bookkeeping("the status to be returned")
         self._line("return status;")
 
     def _all_sequenced(self, statements: Sequence[Statement], *, more: bool) -> None:
@@ -764,6 +790,7 @@ class CoreWriter:
             self._sequenced(statement, more=more or later)
 
     def _sequenced(self, statement: Statement, *, more: bool) -> None:
+        self.lines.parent = self.genealogy.of(statement)
         if isinstance(statement, When):
             self._comment(statement.comment)
             self._condition_head("if ", _on_latest(statement.condition), "")

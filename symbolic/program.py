@@ -15,6 +15,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from .origins import Origin
 from .signals import Signal, Status
 
 if TYPE_CHECKING:
@@ -203,6 +204,8 @@ class Evaluate:
         For each output the C names of its nonzeros, where they go into locals.
     comment : tuple of str
         The equations, one a line.
+    origins : tuple of tuple of Origin
+        For each output what its nonzeros come from; empty if it is not known.
     """
 
     function: ca.Function
@@ -210,6 +213,7 @@ class Evaluate:
     writes: tuple[tuple[tuple[Place, int], ...], ...]
     names: tuple[tuple[str, ...], ...]
     comment: tuple[str, ...] = ()
+    origins: tuple[tuple[Origin, ...], ...] = ()
 
     def run(self, frame: Frame) -> None:
         arguments = []
@@ -493,6 +497,8 @@ class Entry:
         Inputs that only callers inside the block set; elsewhere they are read from the place.
     checks_params : bool
         Whether it judges the parameters' ranges (`init` does).
+    sources : tuple of str
+        Lines of the user's file that it comes from, beside that of the block; no part of the model.
     """
 
     name: str
@@ -502,6 +508,7 @@ class Entry:
     doc: str = ""
     hidden: tuple[tuple[Signal, Place], ...] = ()
     checks_params: bool = False
+    sources: tuple[str, ...] = ()
 
 
 @dataclass
