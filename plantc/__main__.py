@@ -93,19 +93,14 @@ def _sentence(error: Exception) -> str:
     return f"plantc itself failed ({type(error).__name__}: {error}); run again with --debug and report it"
 
 
-class Size(click.ParamType):
-    """A number of bytes, with K or M behind it or without."""
-
-    name = "size"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
-        """Return bytes."""
-        if isinstance(value, int):
-            return value
-        found = re.fullmatch(r"([1-9]\d{0,9})([KkMm]?)", str(value))
-        if found is None:
-            self.fail(f"{value!r} is no size; give bytes, or a number with K or M, such as 128K", param, ctx)
-        return int(found[1]) * {"": 1, "K": 1024, "M": 1024 * 1024}[found[2].upper()]
+def _size(ctx: click.Context, param: click.Parameter, value: str) -> int:
+    """Return bytes from a number with or without K or M behind it; 0 where nothing is given."""
+    if not value:
+        return 0
+    found = re.fullmatch(r"([1-9]\d{0,9})([KkMm]?)", value)
+    if found is None:
+        raise click.BadParameter(f"{value!r} is no size; give bytes, or a number with K or M, such as 128K")
+    return int(found[1]) * {"": 1, "K": 1024, "M": 1024 * 1024}[found[2].upper()]
 
 
 class _Commands(click.Group):
@@ -244,8 +239,14 @@ def _derived_text(answer: dict[str, Any]) -> list[str]:
     show_default=True,
     help="Whether a product and a sum may become one fused operation.",
 )
-@click.option("--flash", type=Size(), default=0, help="Flash of the target, as 128K or 1M; default the target's own.")
-@click.option("--ram", type=Size(), default=0, help="RAM of the target, likewise.")
+@click.option(
+    "--flash",
+    callback=_size,
+    default="",
+    metavar="BYTES",
+    help="Flash of the target, as 128K or 1M; default the target's own.",
+)
+@click.option("--ram", callback=_size, default="", metavar="BYTES", help="RAM of the target, likewise.")
 @_common
 def export_command(
     model: str, out: Path, precision: str, steps: int, redesign: bool, as_json: bool, debug: bool, **machine: Any
