@@ -25,7 +25,8 @@ from .layout import default_params
 from .on_target import chosen_targets, measure_targets
 from .options import Options
 from .style import Precision
-from .vectors import vectors_source, wrapped
+from .traceability import trace_text
+from .vectors import choose_vectors, vectors_source, wrapped
 from .views import NativeView, View
 
 VECTOR_STEPS = 100
@@ -121,7 +122,7 @@ def build_files(block: Block, options: Options | str = "double") -> dict[str, st
     chosen = options if isinstance(options, Options) else Options(Precision(options))
     precision = chosen.precision.name
     text = emit(block, precision)
-    vectors, count = vectors_source(block, precision, _rare_calls(block, precision))
+    vectors = choose_vectors(block, precision, _rare_calls(block, precision))
     name = block.name
     context = {
         "name": name,
@@ -140,11 +141,13 @@ def build_files(block: Block, options: Options | str = "double") -> dict[str, st
     files = {
         f"src/{name}.h": text.header,
         f"src/{name}.c": text.source,
-        "test/test_vectors.c": vectors,
+        "test/test_vectors.c": vectors_source(block, precision, vectors),
         "examples/example_main.c": wrapped(main),
         "CMakeLists.txt": templates().get_template("CMakeLists.txt.j2").render(**context),
     }
-    files["manifest.json"] = json.dumps(_manifest(block, chosen, text, files, count), indent=2) + "\n"
+    files["trace.json"] = trace_text(block, text, vectors.vectors)
+    manifest = _manifest(block, chosen, text, files, len(vectors.vectors))
+    files["manifest.json"] = json.dumps(manifest, indent=2) + "\n"
     return files
 
 
