@@ -32,9 +32,6 @@ from .views import NativeView
 FUZZED_CALLS = 20000
 RANDOM_CALLS = 400
 _FLAGS = ("-std=c99", "-O0", "-fPIC", "--coverage", "-ffp-contract=off")
-_MATHEMATICAL = frozenset(
-    "reduce turned sin cos tan asin acos atan atan2 sinh cosh tanh exp expm1 log log1p log10 pow hypot".split()
-)
 _DUMP = (
     "void __gcov_dump(void);\nvoid plantc_dump_counts(void);\nvoid plantc_dump_counts(void)\n{\n    __gcov_dump();\n}\n"
 )
@@ -220,15 +217,22 @@ def _one_bad_element(block: Block, entry: Entry, probe: Probe) -> Iterator[Probe
 def _without_doubt(block: Block, probe: Probe) -> Probe:
     """Return a call whose memory has no variance: nothing measured brings a state back into its range."""
     values = {signal.name: np.zeros(signal.size) for signal in block.memory_signals_flat() if is_packed(signal)}
-    return Probe("corpus", 0, probe.entry, fill(probe.memory.copy(), values), probe.inputs, probe.params)
+    open_ = {name: 0.0 for name in _gates(block)}
+    return Probe(
+        "corpus", 0, probe.entry, fill(probe.memory.copy(), values), probe.inputs, fill(probe.params.copy(), open_)
+    )
+
+
+def _gates(block: Block) -> set[str]:
+    """Return the parameters that an entry reads unless a caller inside sets the number: gates, zero for none."""
+    return {place.name for entry in block.entries.values() for _, place in entry.hidden}
 
 
 def _at_limits(block: Block, entry: Entry, probe: Probe, count: int) -> Probe:
     """Return a call with all flags up, counters high, and gates and limits that are not off."""
     signals = block.param_signals_flat()
     given: dict[str, Any] = {signal.name: 2 for signal in signals if signal.kind is Kind.COUNT and count < 10}
-    # what an entry reads from a parameter unless a caller inside sets it is a gate, on or off by default
-    gates = {place.name for item in block.entries.values() for _, place in item.hidden}
+    gates = _gates(block)
     given |= {item.name: np.full(item.size, 1e-9) for item in signals if is_off(item) or item.name in gates}
     memory = {signal.name: count for signal in block.memory_signals_flat() if signal.kind is Kind.COUNT}
     flags = {signal.name: 1 for signal in entry.inputs if signal.kind is Kind.FLAG}
@@ -274,11 +278,10 @@ def _random(block: Block, view: NativeView) -> Iterator[Probe]:
 
 
 def _is_mathematical(block: Block, provenance: Provenance, number: int) -> bool:
-    """Whether a line is in a function that stands in for one of <math.h>."""
+    """Whether a line is in a function of the emitted mathematics, which stands in for that of <math.h>."""
     for name, first, last in provenance.functions:
         if first <= number <= last:
-            own = name.removeprefix(f"{block.name}_")
-            return own in _MATHEMATICAL or own.endswith("_series")
+            return name.startswith(f"{block.name}_math_")
     return False
 
 
@@ -324,7 +327,7 @@ def _statement_reason(
         ran = "calls of the corpus run it" if by_corpus else f"no call of the corpus ({corpus}) has such an argument"
         return f"a branch of a mathematical function for arguments that no vector has; {ran}, and plantc's tests do"
     if not by_corpus and parent is not None and parent.kind == "judgement":
-        return f"none of {corpus} calls made this judgement fail: what comes before it keeps the value in range"
+        return f"none of {corpus} calls made this judgement fail; it stays as a defence"
     return ""
 
 
@@ -335,7 +338,7 @@ def _branch_reason(
     if _is_mathematical(block, provenance, number):
         return "a branch of a mathematical function for arguments that this model does not give it; plantc's tests do"
     if parent is not None and parent.kind == "judgement":
-        return f"none of {corpus} calls had this bound alone decide: what comes before keeps the value within it"
+        return f"none of {corpus} calls had this bound alone decide; it stays as a defence"
     if "?" in line:
         return f"none of {corpus} calls needed the value that keeps a quotient finite, or the other way of a choice"
     if "status >=" in line or "own >=" in line:

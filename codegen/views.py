@@ -209,6 +209,8 @@ class NativeView(View):
         Whether a product and a sum may be fused.
     library : Path, optional
         A library that was built already; then nothing is compiled.
+    mathematics : {"own", "libm"}
+        Whose `sin`, `exp` ... the emitted C calls.
 
     Raises
     ------
@@ -226,9 +228,10 @@ class NativeView(View):
         text: CText | None = None,
         contract: bool = False,
         library: Path | None = None,
+        mathematics: str = "own",
     ):
         super().__init__(block, precision)
-        self.text = text or emit(block, precision)
+        self.text = text or emit(block, precision, mathematics=mathematics)
         name = block.name
         sources = {f"{name}.h": self.text.header, f"{name}.c": self.text.source}
         self.path: Path = library or library_for(sources, contract=contract)
