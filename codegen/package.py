@@ -21,6 +21,7 @@ from .crosscheck import CrossCheck, cross_check, make_probes, make_views
 from .emit import CText, emit, generator_version, templates
 from .findings import CheckResult, Findings, Mismatch
 from .folder import MEASURED, FolderError, check_folder_is_free, read_manifest, write_files, write_folder
+from .fuzz import fuzz_source
 from .layout import default_params
 from .options import Options
 from .style import Precision
@@ -140,6 +141,7 @@ def build_files(block: Block, options: Options | str = "double") -> dict[str, st
         f"src/{name}.c": text.source,
         "test/test_vectors.c": vectors,
         "examples/example_main.c": wrapped(main),
+        "verify/fuzz_main.c": fuzz_source(block, chosen.precision),
         "CMakeLists.txt": templates().get_template("CMakeLists.txt.j2").render(**context),
     }
     files["manifest.json"] = json.dumps(_manifest(block, precision, text, files, count), indent=2) + "\n"
