@@ -134,6 +134,41 @@ def cross_check(
     return CrossCheck(results, counts, probes)
 
 
+def compare_answers(
+    block: Block,
+    precision: str,
+    native: View,
+    name: str,
+    probes: list[Probe],
+    answers: list[Answer],
+    limit: float,
+) -> CheckResult:
+    """Compare what another machine answered to the calls of a lockstep with the native view, within a limit.
+
+    Parameters
+    ----------
+    block : Block
+        What was run.
+    precision : {"double", "float"}
+        Of the C.
+    native : View
+        Whose answers the probes carry.
+    name : str
+        Of the result: ``"<other> = native"``.
+    probes : list of Probe
+        The calls, with the native view's answers.
+    answers : list of Answer
+        The other machine's, in the same order.
+    limit : float
+        Largest accepted difference, in sigma (or relative).
+    """
+    lock = _Lockstep(block, precision, make_views(block, precision, native))
+    for probe, answer in zip(probes, answers, strict=True):
+        if probe.answer is not None:
+            lock.pair(name, probe, answer, probe.answer, limit)
+    return next(result for result in lock.results() if result.name == name)
+
+
 def _accepted(probes: list[Probe]) -> CheckResult:
     """A trace on which every call is refused compares nothing."""
     nominal = [probe for probe in probes if probe.trace == "nominal" and probe.answer is not None]
@@ -440,6 +475,10 @@ class _Lockstep:
             self._statuses("float statuses = reference in float", probe, native, same, margin, other)
         best = interpret if reference is None else reference
         self._pair("float = double", probe, native, best, margin, self.block.float_bound, statuses=False)
+
+    def pair(self, name: str, probe: Probe, left: Answer, right: Answer, limit: float) -> None:
+        """Compare two answers that were already given."""
+        self._pair(name, probe, left, right, math.inf, limit)
 
     def _converted(self, view: View, probe: Probe) -> Answer:
         """Call a view of another precision with the same numbers."""

@@ -118,9 +118,9 @@ def check_folder_is_free(folder: Path, files: Iterable[str] = ()) -> set[str]:
     if not above.is_dir():
         raise FolderError(f"{above}: it is a file, not a folder; give another --out")
     parent = folder.parent if above == folder else above
-    for path in {above, parent}:
-        if not os.access(path, os.W_OK | os.X_OK):
-            raise FolderError(f"{path}: no permission to write there; give another --out")
+    for place in {above, parent}:
+        if not os.access(place, os.W_OK | os.X_OK):
+            raise FolderError(f"{place}: no permission to write there; give another --out")
     return ours
 
 

@@ -17,15 +17,18 @@ import numpy as np
 from ..symbolic.block import Block
 from ..symbolic.signals import Kind, Signal
 from .compiler import contraction_flag, find_compiler
+from .coverage import measure_coverage
 from .crosscheck import CrossCheck, cross_check, make_probes, make_views
 from .emit import CText, emit, generator_version, templates
 from .findings import CheckResult, Findings, Mismatch
 from .folder import MEASURED, FolderError, check_folder_is_free, read_manifest, write_files, write_folder
 from .fuzz import fuzz_source
 from .layout import default_params
+from .on_target import chosen_targets, measure_targets
 from .options import Options
 from .style import Precision
-from .vectors import vectors_source, wrapped
+from .traceability import trace_text
+from .vectors import choose_vectors, vectors_source, wrapped
 from .views import NativeView, View
 
 VECTOR_STEPS = 100
@@ -101,6 +104,8 @@ Measurement = Callable[[Draft], Findings]
 
 MEASUREMENTS: list[tuple[str, Measurement]] = [
     ("vectors", lambda draft: Findings([run_vectors(draft.block.name, draft.files)])),
+    ("coverage", lambda draft: _coverage(draft)),
+    ("targets", lambda draft: measure_targets(draft.block, draft.options, draft.text, draft.check)),
 ]
 """What every export that passed its cross-check is measured by, in this order: (what is being done, how)."""
 
@@ -119,8 +124,8 @@ def build_files(block: Block, options: Options | str = "double") -> dict[str, st
     """
     chosen = options if isinstance(options, Options) else Options(Precision(options))
     precision = chosen.precision.name
-    text = emit(block, precision)
-    vectors, count = vectors_source(block, precision, _rare_calls(block, precision))
+    text = emit(block, precision, mathematics=chosen.mathematics)
+    vectors = choose_vectors(block, precision, _rare_calls(block, precision))
     name = block.name
     context = {
         "name": name,
@@ -139,13 +144,21 @@ def build_files(block: Block, options: Options | str = "double") -> dict[str, st
     files = {
         f"src/{name}.h": text.header,
         f"src/{name}.c": text.source,
-        "test/test_vectors.c": vectors,
+        "test/test_vectors.c": vectors_source(block, precision, vectors),
         "examples/example_main.c": wrapped(main),
         "verify/fuzz_main.c": fuzz_source(block, chosen.precision),
         "CMakeLists.txt": templates().get_template("CMakeLists.txt.j2").render(**context),
     }
-    files["manifest.json"] = json.dumps(_manifest(block, precision, text, files, count), indent=2) + "\n"
+    files["trace.json"] = trace_text(block, text, vectors.vectors)
+    manifest = _manifest(block, chosen, text, files, len(vectors.vectors))
+    files["manifest.json"] = json.dumps(manifest, indent=2) + "\n"
     return files
+
+
+def _coverage(draft: Draft) -> Findings:
+    return measure_coverage(
+        draft.block, draft.options.precision.name, draft.files, draft.text.provenance, draft.check.calls
+    )
 
 
 def _rare_calls(block: Block, precision: str) -> CrossCheck:
@@ -162,6 +175,7 @@ def export(
     out: Path | str,
     *,
     precision: str = "double",
+    mathematics: str = "own",
     options: Options | None = None,
     steps: int = 100,
     progress: Callable[[str, int, int], None] | None = None,
@@ -177,8 +191,10 @@ def export(
         Folder that gets a folder named after the block.
     precision : {"double", "float"}
         Type of real numbers in the C.
+    mathematics : {"own", "libm"}
+        Whose `sin`, `exp` ... the C calls: plantc's own (the same bits everywhere), or the C library's.
     options : Options, optional
-        All choices; then `precision` is not looked at.
+        All choices; then `precision` and `mathematics` are not looked at.
     steps : int
         Length of the nominal trace of the cross-check.
     progress : callable, optional
@@ -195,18 +211,21 @@ def export(
     ------
     CompilerError
         If there is no C compiler.
+    TargetError
+        If a target is not known, its tools are missing, or the code does not fit it.
     FolderError
         If the folder cannot be written, or holds someone else's files.
     ExportError
         If a check failed. Nothing is written; what was there stays.
     """
     report = progress or (lambda what, done, total: None)
-    chosen = options or Options(Precision(precision))
+    chosen = options or Options(Precision(precision), mathematics=mathematics)
     precision = chosen.precision.name
     folder = Path(out) / block.name
     check_folder_is_free(folder)
+    chosen_targets(chosen)  # a missing tool is told before the work
     report("compile", 0, 1)
-    compiled = native or NativeView(block, precision)
+    compiled = native or NativeView(block, precision, contract=chosen.contract, mathematics=chosen.mathematics)
     views = make_views(block, precision, compiled)
     check = cross_check(
         block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)
@@ -223,7 +242,7 @@ def export(
         facts.update(found.facts)
         if not check.passed:
             raise ExportError(failure_text(block, check), check)
-    evidence = {**_evidence(block, precision, check, compiled), **facts}
+    evidence = {**_evidence(block, chosen, check, compiled), **facts}
     files["evidence.json"] = json.dumps(evidence, indent=2) + "\n"
     write_folder(folder, files)
     return Export(block, chosen, folder, files, check, evidence)
@@ -276,6 +295,9 @@ def check_folder(
     report = progress or (lambda what, done, total: None)
     manifest = read_manifest(folder)
     precision = manifest["precision"]
+    options = Options(
+        Precision(precision), contract=manifest.get("contract") == "on", mathematics=manifest.get("mathematics", "own")
+    )
     name = block.name
     present = {file: (folder / file).read_text() for file in manifest["files"] if (folder / file).is_file()}
     missing = [file for file in manifest["files"] if file not in present]
@@ -283,12 +305,12 @@ def check_folder(
     header, source = present.get(f"src/{name}.h"), present.get(f"src/{name}.c")
     if header is not None and source is not None and manifest["model"] == block.model_hash():
         lying = CText(name, Precision(precision), header, source, {})
-        native = NativeView(block, precision, text=lying)
+        native = NativeView(block, precision, text=lying, contract=options.contract)
     views = make_views(block, precision, native)
     check = cross_check(
         block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)
     )
-    expected = build_files(block, precision)
+    expected = build_files(block, options)
     changed = [file for file, text in expected.items() if file in present and present[file] != text]
     stored = folder / "manifest.json"
     if stored.is_file() and stored.read_text() != expected["manifest.json"] and "manifest.json" not in changed:
@@ -316,13 +338,15 @@ def _fields(signals: tuple[Signal, ...]) -> list[dict[str, Any]]:
     return answer
 
 
-def _manifest(block: Block, precision: str, text: CText, files: dict[str, str], vectors: int) -> dict[str, Any]:
+def _manifest(block: Block, options: Options, text: CText, files: dict[str, str], vectors: int) -> dict[str, Any]:
     return {
         "name": block.name,
         "doc": block.doc,
         "model": block.model_hash(),
         "generator": f"plantc {generator_version()}",
-        "precision": precision,
+        "precision": options.precision.name,
+        "contract": "on" if options.contract else "off",
+        "mathematics": options.mathematics,
         "equations": block.equations,
         "memory": _fields(block.memory_group().members),
         "parameters": _fields(block.param_group().members),
@@ -342,8 +366,9 @@ def _manifest(block: Block, precision: str, text: CText, files: dict[str, str], 
     }
 
 
-def _evidence(block: Block, precision: str, check: CrossCheck, native: View) -> dict[str, Any]:
+def _evidence(block: Block, options: Options, check: CrossCheck, native: View) -> dict[str, Any]:
     compiler = find_compiler()
+    precision = options.precision.name
     types = {
         "memory_bytes": native.memory().nbytes,
         "parameter_bytes": default_params(block, Precision(precision)).nbytes,
@@ -353,7 +378,11 @@ def _evidence(block: Block, precision: str, check: CrossCheck, native: View) -> 
         "model": block.model_hash(),
         "precision": precision,
         "passed": check.passed,
-        "compiler": {"label": compiler.label, "version": compiler.version(), "contraction": contraction_flag(False)},
+        "compiler": {
+            "label": compiler.label,
+            "version": compiler.version(),
+            "contraction": contraction_flag(options.contract),
+        },
         "machine": platform.machine(),
         **types,
         "checks": [result.as_dict() for result in check.results],

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..symbolic.block import Block
-from ..symbolic.program import Place, run_entry
+from ..symbolic.program import Place, Visit, run_entry
 from ..symbolic.signals import Status
 from .compiler import library_for
 from .emit import CText, emit
@@ -41,12 +41,15 @@ class Answer:
         After the call.
     margin : float
         How near the call came to a switch (relative); infinite where the view does not tell.
+    visits : tuple of Visit
+        The statements that ran, where the view tells.
     """
 
     status: Status
     memory: Record
     outputs: Record
     margin: float = float("inf")
+    visits: tuple[Visit, ...] = ()
 
 
 class View:
@@ -153,14 +156,15 @@ class InterpretView(View):
                 values[Place("memory", name)] = value.astype(float) if value.dtype.kind == "f" else value
         for name, value in flatten(inputs).items():
             values[Place("in", name)] = value
-        outcome = run_entry(self.block, program, values, flatten(params), self.patches)
+        visits: list[Visit] = []
+        outcome = run_entry(self.block, program, values, flatten(params), self.patches, visits)
         if outcome.status < 0:
-            return Answer(outcome.status, memory.copy(), self.outputs(entry), outcome.margin)
+            return Answer(outcome.status, memory.copy(), self.outputs(entry), outcome.margin, tuple(visits))
         answer = self.memory() if program.checks_params else memory.copy()
         outputs = self.outputs(entry)
         fill(answer, {place.name: value for place, value in outcome.values.items() if place.space == "next"})
         fill(outputs, {place.name: value for place, value in outcome.values.items() if place.space == "out"})
-        return Answer(outcome.status, answer, outputs, outcome.margin)
+        return Answer(outcome.status, answer, outputs, outcome.margin, tuple(visits))
 
 
 class ReferenceView(View):
@@ -203,6 +207,10 @@ class NativeView(View):
         C to use instead of what `emit` gives: for tests that plant a fault.
     contract : bool
         Whether a product and a sum may be fused.
+    library : Path, optional
+        A library that was built already; then nothing is compiled.
+    mathematics : {"own", "libm"}
+        Whose `sin`, `exp` ... the emitted C calls.
 
     Raises
     ------
@@ -212,11 +220,21 @@ class NativeView(View):
 
     name = "native"
 
-    def __init__(self, block: Block, precision: str = "double", *, text: CText | None = None, contract: bool = False):
+    def __init__(
+        self,
+        block: Block,
+        precision: str = "double",
+        *,
+        text: CText | None = None,
+        contract: bool = False,
+        library: Path | None = None,
+        mathematics: str = "own",
+    ):
         super().__init__(block, precision)
-        self.text = text or emit(block, precision)
+        self.text = text or emit(block, precision, mathematics=mathematics)
         name = block.name
-        self.path: Path = library_for({f"{name}.h": self.text.header, f"{name}.c": self.text.source}, contract=contract)
+        sources = {f"{name}.h": self.text.header, f"{name}.c": self.text.source}
+        self.path: Path = library or library_for(sources, contract=contract)
         self.library = ctypes.CDLL(str(self.path))
         self._has_params = bool(block.param_group().members)
         self._functions: dict[str, Any] = {}

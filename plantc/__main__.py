@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 import time
 import traceback
@@ -20,6 +21,8 @@ from .codegen.audit import AUDITS, AuditError, AuditResult, audit_folder
 from .codegen.compiler import CompilerError
 from .codegen.emit import generator_version
 from .codegen.findings import CheckResult
+from .codegen.mathematics import CHOICES
+from .codegen.options import Options
 from .codegen.package import (
     DesignError,
     Export,
@@ -30,6 +33,8 @@ from .codegen.package import (
     read_manifest,
     with_design,
 )
+from .codegen.style import Precision
+from .codegen.targets import TARGETS
 from .models import UsageError
 from .symbolic import Block, ModelError
 
@@ -88,6 +93,16 @@ def _sentence(error: Exception) -> str:
     if isinstance(error, OSError):
         return f"{error.filename}: {error.strerror}" if error.filename and error.strerror else str(error)
     return f"plantc itself failed ({type(error).__name__}: {error}); run again with --debug and report it"
+
+
+def _size(ctx: click.Context, param: click.Parameter, value: str) -> int:
+    """Return bytes from a number with or without K or M behind it; 0 where nothing is given."""
+    if not value:
+        return 0
+    found = re.fullmatch(r"([1-9]\d{0,9})([KkMm]?)", value)
+    if found is None:
+        raise click.BadParameter(f"{value!r} is no size; give bytes, or a number with K or M, such as 128K")
+    return int(found[1]) * {"": 1, "K": 1024, "M": 1024 * 1024}[found[2].upper()]
 
 
 class _Commands(click.Group):
@@ -210,16 +225,47 @@ def _derived_text(answer: dict[str, Any]) -> list[str]:
     "--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace."
 )
 @click.option("--redesign", is_flag=True, help="Design the numbers of design.json anew.")
+@click.option(
+    "--target",
+    "targets",
+    type=click.Choice(list(TARGETS)),
+    multiple=True,
+    default=["host"],
+    show_default=True,
+    help="Machine the C is measured on; may be given several times.",
+)
+@click.option(
+    "--contract",
+    type=click.Choice(["on", "off"]),
+    default="off",
+    show_default=True,
+    help="Whether a product and a sum may become one fused operation.",
+)
+@click.option(
+    "--mathematics",
+    type=click.Choice(CHOICES),
+    default="own",
+    show_default=True,
+    help="Whose sin, exp ... the C calls: plantc's own, the same bits everywhere, or the C library's.",
+)
+@click.option(
+    "--flash",
+    callback=_size,
+    default="",
+    metavar="BYTES",
+    help="Flash of the target, as 128K or 1M; default the target's own.",
+)
+@click.option("--ram", callback=_size, default="", metavar="BYTES", help="RAM of the target, likewise.")
 @_common
 def export_command(
-    model: str, out: Path, precision: str, steps: int, redesign: bool, as_json: bool, debug: bool
+    model: str, out: Path, precision: str, steps: int, redesign: bool, as_json: bool, debug: bool, **machine: Any
 ) -> None:
     """Write C for the blocks of MODEL into OUT/BLOCK/, compiled and cross-checked; nothing is written if a check fails."""
     session = Session(as_json, debug)
 
     def body() -> NoReturn:
         blocks, path = models.blocks_of(model)
-        exports = _export_all(session, blocks, path, out, precision, steps, redesign)
+        exports = _export_all(session, blocks, path, out, _options(precision, **machine), steps, redesign)
         result = {"blocks": [_export_json(item) for item in exports]}
         folders = ", ".join(str(item.folder) for item in exports)
         session.finish(result, f"exported, all checks passed: {folders}", GOOD)
@@ -227,8 +273,17 @@ def export_command(
     session.run(body)
 
 
+def _options(
+    precision: str, targets: tuple[str, ...], contract: str, mathematics: str, flash: int, ram: int
+) -> Options:
+    names = tuple(dict.fromkeys(targets))
+    if (flash or ram) and set(names) <= {"host"}:
+        raise UsageError("--flash and --ram are sizes of a target, and there is none; give --target, or leave them out")
+    return Options(Precision(precision), names, contract == "on", mathematics, flash=flash, ram=ram)
+
+
 def _export_all(
-    session: Session, blocks: list[Block], path: Path, out: Path, precision: str, steps: int, redesign: bool
+    session: Session, blocks: list[Block], path: Path, out: Path, options: Options, steps: int, redesign: bool
 ) -> list[Export]:
     exports = []
     for given in blocks:
@@ -242,7 +297,7 @@ def _export_all(
             def report(what: str, done: int, total: int, task: Any = task, name: str = block.name) -> None:
                 display.update(task, description=f"{name}: {what}", completed=done, total=total)
 
-            exports.append(export(block, out, precision=precision, steps=steps, progress=report))
+            exports.append(export(block, out, options=options, steps=steps, progress=report))
         for line in evidence_text(exports[-1], time.perf_counter() - started):
             session.say(line)
     return exports
@@ -264,7 +319,20 @@ def evidence_text(item: Export, seconds: float) -> list[str]:
         f"{name} {count}" for name, count in sorted(item.check.statuses.items(), key=lambda row: -row[1])
     )
     lines.append(f"  statuses reached: {reached}")
-    return lines
+    return [*lines, *targets_text(evidence.get("targets", {}))]
+
+
+def targets_text(targets: dict[str, Any]) -> list[str]:
+    """Return a table of what the code costs on each target."""
+    lines = [f"  {'target':<10} {'text':>7} {'data':>6} {'bss':>6} {'stack':>6}  instructions per call, the most seen"]
+    for name, facts in targets.items():
+        sizes, stack, counts = facts["object"], facts["stack"], facts["instructions"]
+        columns = [f"{sizes[key]:>{width}}" if isinstance(sizes, dict) else "-".rjust(width)
+                   for key, width in (("text", 7), ("data", 6), ("bss", 6))]  # fmt: skip
+        deepest = f"{max(stack.values()):>6}" if isinstance(stack, dict) else "-".rjust(6)
+        text = ", ".join(f"{key} {value}" for key, value in counts.items()) if isinstance(counts, dict) else counts
+        lines.append(f"  {name:<10} {' '.join(columns)} {deepest}  {text}")
+    return lines if targets else []
 
 
 def checks_text(results: list[CheckResult]) -> list[str]:
@@ -415,7 +483,7 @@ def demo_command(out: Path, as_json: bool, debug: bool) -> None:
             "The extended Kalman filter of a 12-state quadrotor: derived, written as C, compiled, cross-checked."
         )
         path = Path(__file__).resolve().parent
-        exports = _export_all(session, [quadrotor_ekf], path / "demo.py", out, "double", 100, False)
+        exports = _export_all(session, [quadrotor_ekf], path / "demo.py", out, Options(), 100, False)
         image = picture(quadrotor_ekf, out / "quadrotor_ekf.svg")
         session.say(f"  the compiled C at work: {image}")
         result = {"blocks": [_export_json(item) for item in exports], "picture": str(image)}
