@@ -26,7 +26,7 @@ def test_the_files_are_those_promised(exported):
     for path in exported.folder.rglob("*.c"):
         library = path.name == "pendulum_ekf.c"
         assert library != any(word in path.name for word in ("main", "test", "vectors"))
-        assert library or "int main(void)" in path.read_text()
+        assert library or "int main(" in path.read_text()
         assert all(len(line) <= 120 for line in path.read_text().split("\n")), path.name
 
 
