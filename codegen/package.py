@@ -22,6 +22,7 @@ from .crosscheck import CrossCheck, cross_check, make_probes, make_views
 from .emit import CText, emit, generator_version, templates
 from .findings import CheckResult, Findings, Mismatch
 from .folder import MEASURED, FolderError, check_folder_is_free, read_manifest, write_files, write_folder
+from .fuzz import fuzz_source
 from .layout import default_params
 from .on_target import chosen_targets, measure_targets
 from .options import Options
@@ -146,6 +147,7 @@ def build_files(block: Block, options: Options | str = "double") -> dict[str, st
         f"src/{name}.c": text.source,
         "test/test_vectors.c": vectors_source(block, precision, vectors),
         "examples/example_main.c": wrapped(main),
+        "verify/fuzz_main.c": fuzz_source(block, chosen.precision),
         "CMakeLists.txt": templates().get_template("CMakeLists.txt.j2").render(**context),
     }
     files["trace.json"] = trace_text(block, text, vectors.vectors)

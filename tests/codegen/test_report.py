@@ -82,6 +82,7 @@ def opened(page, folder):
     return json.loads(found.group(1))
 
 
+@pytest.mark.slow
 def test_it_opens_in_a_browser_with_all_its_figures(page, needs, tmp_path):
     needs("chromium")
     told = opened(page, tmp_path)
@@ -96,6 +97,7 @@ def test_it_opens_in_a_browser_with_all_its_figures(page, needs, tmp_path):
         assert item["shapes"] > 5, item
 
 
+@pytest.mark.slow
 def test_a_figure_that_is_not_shown_and_a_script_error_are_seen(page, needs, tmp_path):
     needs("chromium")
     bad = page.replace("svg.figure {", "svg.figure { display: none !important;")
