@@ -18,6 +18,7 @@ from ..symbolic.kernels import AllStatesUpdate
 from ..symbolic.program import Entry, HoldVariances, walk
 from ..symbolic.signals import STATUS_TEXT, Kind, Signal, Status
 from .layout import default_text, struct_lines
+from .mathematics import CHOICES, OWN, mathematics_note, mathematics_text
 from .provenance import Genealogy, Parent, Provenance, TracedLines, marked, unmarked
 from .rows import bounded_helper, pair_helpers
 from .style import WIDTH, Precision, comment_lines, comment_safe, wrap_line
@@ -71,7 +72,9 @@ class CText:
     provenance: Provenance = field(default_factory=Provenance)
 
 
-def emit(block: Block, precision: str | Precision = "double", style: Style | None = None) -> CText:
+def emit(
+    block: Block, precision: str | Precision = "double", style: Style | None = None, *, mathematics: str = "own"
+) -> CText:
     """Return the C99 text of a block: the same bytes for the same model, anywhere.
 
     Parameters
@@ -82,10 +85,21 @@ def emit(block: Block, precision: str | Precision = "double", style: Style | Non
         Type of every real number.
     style : Style, optional
         The emitter's choices; by default those for the precision.
+    mathematics : {"own", "libm"}
+        Whose `sin`, `exp` ... the C calls, where no style is given: plantc's own, or the C library's.
+
+    Raises
+    ------
+    ModelError
+        If a number does not fit into the precision, or a function has no counterpart in the C.
+    ValueError
+        If `mathematics` is neither.
     """
+    if mathematics not in CHOICES:
+        raise ValueError(f"the mathematics {mathematics!r} is not known; take 'own' or 'libm'")
     kind = precision if isinstance(precision, Precision) else Precision(precision)
     try:
-        return _Emitter(block, kind, style or style_for(kind)).text()
+        return _Emitter(block, kind, style or style_for(kind, mathematics)).text()
     except OverflowError as error:
         raise ModelError(f"{block.name}: {error}; rescale the units, or export in double") from None
 
@@ -96,6 +110,7 @@ class _Emitter:
         self.name = block.name
         self.operations: dict[str, dict[str, int]] = {}
         self.used: set[str] = set()
+        self.own: set[str] = set()
 
     def text(self) -> CText:
         """Write both files."""
@@ -119,7 +134,7 @@ class _Emitter:
                 **context,
                 title=self._title(),
                 equations=self._equation_lines(),
-                notes=[line for note in self.block.notes for line in textwrap.wrap(comment_safe(note), WIDTH - 3)],
+                notes=[line for note in self._notes() for line in textwrap.wrap(comment_safe(note), WIDTH - 3)],
                 structs=self._structs(self.block, self.name),
                 default=self._default_macro(),
                 prototypes=self._prototypes(),
@@ -128,7 +143,12 @@ class _Emitter:
         source = (
             templates()
             .get_template("source.c.j2")
-            .render(**context, cores=marked(cores, parents), publics=marked(publics, parents))
+            .render(
+                **context,
+                mathematics=mathematics_text(self.name, self.precision, self.own),
+                cores=marked(cores, parents),
+                publics=marked(publics, parents),
+            )
         )
         clean, provenance = unmarked(_tidy(source), parents)
         return CText(self.name, self.precision, _tidy(header), clean, self.operations, provenance)
@@ -138,6 +158,12 @@ class _Emitter:
     def _title(self) -> str:
         kind = "single" if self.precision.is_float else "double"
         return f"{self.name}: {comment_safe(self.block.doc).rstrip('.') or 'a block'}, in {kind} precision."
+
+    def _notes(self) -> list[str]:
+        """Return the block's notes, and whose mathematics the C calls."""
+        names = {name.removesuffix("f") if self.precision.is_float else name for name in self.used} & OWN
+        note = mathematics_note(self.precision, names, self.style.mathematics)
+        return [*self.block.notes, *([note] if note else [])]
 
     def _equation_lines(self) -> list[str]:
         return [
@@ -269,6 +295,7 @@ class _Emitter:
                 continue
             written = CoreWriter(block, entry, prefix, self.style, self.name).write()
             self.used |= written.functions
+            self.own |= written.own
             key = entry.name if prefix == self.name else f"{prefix.removeprefix(self.name + '_')}.{entry.name}"
             self.operations[key] = dict(sorted(written.operations.items()))
             counted = _operations_text(written.operations)

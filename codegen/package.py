@@ -121,7 +121,7 @@ def build_files(block: Block, options: Options | str = "double") -> dict[str, st
     """
     chosen = options if isinstance(options, Options) else Options(Precision(options))
     precision = chosen.precision.name
-    text = emit(block, precision)
+    text = emit(block, precision, mathematics=chosen.mathematics)
     vectors = choose_vectors(block, precision, _rare_calls(block, precision))
     name = block.name
     context = {
@@ -165,6 +165,7 @@ def export(
     out: Path | str,
     *,
     precision: str = "double",
+    mathematics: str = "own",
     options: Options | None = None,
     steps: int = 100,
     progress: Callable[[str, int, int], None] | None = None,
@@ -180,8 +181,10 @@ def export(
         Folder that gets a folder named after the block.
     precision : {"double", "float"}
         Type of real numbers in the C.
+    mathematics : {"own", "libm"}
+        Whose `sin`, `exp` ... the C calls: plantc's own (the same bits everywhere), or the C library's.
     options : Options, optional
-        All choices; then `precision` is not looked at.
+        All choices; then `precision` and `mathematics` are not looked at.
     steps : int
         Length of the nominal trace of the cross-check.
     progress : callable, optional
@@ -206,13 +209,13 @@ def export(
         If a check failed. Nothing is written; what was there stays.
     """
     report = progress or (lambda what, done, total: None)
-    chosen = options or Options(Precision(precision))
+    chosen = options or Options(Precision(precision), mathematics=mathematics)
     precision = chosen.precision.name
     folder = Path(out) / block.name
     check_folder_is_free(folder)
     chosen_targets(chosen)  # a missing tool is told before the work
     report("compile", 0, 1)
-    compiled = native or NativeView(block, precision, contract=chosen.contract)
+    compiled = native or NativeView(block, precision, contract=chosen.contract, mathematics=chosen.mathematics)
     views = make_views(block, precision, compiled)
     check = cross_check(
         block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)
@@ -282,7 +285,9 @@ def check_folder(
     report = progress or (lambda what, done, total: None)
     manifest = read_manifest(folder)
     precision = manifest["precision"]
-    options = Options(Precision(precision), contract=manifest.get("contract") == "on")
+    options = Options(
+        Precision(precision), contract=manifest.get("contract") == "on", mathematics=manifest.get("mathematics", "own")
+    )
     name = block.name
     present = {file: (folder / file).read_text() for file in manifest["files"] if (folder / file).is_file()}
     missing = [file for file in manifest["files"] if file not in present]
@@ -331,6 +336,7 @@ def _manifest(block: Block, options: Options, text: CText, files: dict[str, str]
         "generator": f"plantc {generator_version()}",
         "precision": options.precision.name,
         "contract": "on" if options.contract else "off",
+        "mathematics": options.mathematics,
         "equations": block.equations,
         "memory": _fields(block.memory_group().members),
         "parameters": _fields(block.param_group().members),

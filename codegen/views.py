@@ -207,6 +207,8 @@ class NativeView(View):
         C to use instead of what `emit` gives: for tests that plant a fault.
     contract : bool
         Whether a product and a sum may be fused.
+    mathematics : {"own", "libm"}
+        Whose `sin`, `exp` ... the emitted C calls.
 
     Raises
     ------
@@ -216,9 +218,17 @@ class NativeView(View):
 
     name = "native"
 
-    def __init__(self, block: Block, precision: str = "double", *, text: CText | None = None, contract: bool = False):
+    def __init__(
+        self,
+        block: Block,
+        precision: str = "double",
+        *,
+        text: CText | None = None,
+        contract: bool = False,
+        mathematics: str = "own",
+    ):
         super().__init__(block, precision)
-        self.text = text or emit(block, precision)
+        self.text = text or emit(block, precision, mathematics=mathematics)
         name = block.name
         self.path: Path = library_for({f"{name}.h": self.text.header, f"{name}.c": self.text.source}, contract=contract)
         self.library = ctypes.CDLL(str(self.path))

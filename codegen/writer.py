@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from ..symbolic.block import Block
@@ -41,6 +41,7 @@ from ..symbolic.program import (
 )
 from ..symbolic.signals import Kind, Signal, Status
 from .graph import Graph, Node
+from .mathematics import OWN, mathematics_name
 from .provenance import Genealogy, Parent, TracedLines
 from .rows import pair_operations
 from .style import WIDTH, Precision, comment_lines, wrap_line
@@ -61,16 +62,18 @@ class Style:
     """Choices of the emitter that a target makes.
 
     `rows_per_scope` measurement rows share a scope before the covariance is stored: 1 is best without fused
-    multiply-add, 4 with it (research/codegen_performance.md, section 9).
+    multiply-add, 4 with it (research/codegen_performance.md, section 9). `mathematics` says whose `sin`, `exp` ... are
+    called: plantc's ``own``, or those of the C library (``libm``).
     """
 
     precision: Precision
     rows_per_scope: int
+    mathematics: str = "own"
 
 
-def style_for(precision: Precision) -> Style:
+def style_for(precision: Precision, mathematics: str = "own") -> Style:
     """Return the emitter's choices for a precision: single is for FPUs with fused multiply-add."""
-    return Style(precision, 4 if precision.is_float else 1)
+    return Style(precision, 4 if precision.is_float else 1, mathematics)
 
 
 @dataclass
@@ -80,6 +83,7 @@ class CoreText:
     lines: TracedLines
     operations: Counter[str]
     functions: set[str]
+    own: set[str] = field(default_factory=set)
 
 
 def core_name(prefix: str, entry: Entry) -> str:
@@ -120,6 +124,7 @@ class CoreWriter:
         self.versions: Counter[Place] = Counter()
         self.operations: Counter[str] = Counter()
         self.functions: set[str] = set()
+        self.own: set[str] = set()
         self.sizes = {signal.name: signal for signal in block.memory_signals_flat()}
 
     # -- the function -------------------------------------------------------------------------------------------------
@@ -154,7 +159,7 @@ class CoreWriter:
             self._plain()
         head = wrap_signature(self.signature())
         frame = self.genealogy.parent("entry", self.entry.doc or f"the entry {self.entry.name}")
-        return CoreText(TracedLines([*head, "{", *self.lines, "}"], frame), self.operations, self.functions)
+        return CoreText(TracedLines([*head, "{", *self.lines, "}"], frame), self.operations, self.functions, self.own)
 
     def _plain(self) -> None:
         entry = self.entry
@@ -470,6 +475,9 @@ class CoreWriter:
     def _call(self, name: str, *arguments: str) -> str:
         function = self.precision.function(name)
         self.functions.add(function)
+        if self.style.mathematics == "own" and name in OWN:
+            self.own.add(name)
+            function = mathematics_name(self.root, name)
         return f"{function}({', '.join(arguments)})"
 
     def _refuse(self, statement: Refuse, rest: Sequence[Statement]) -> None:

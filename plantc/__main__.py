@@ -20,6 +20,7 @@ from . import models
 from .codegen.compiler import CompilerError
 from .codegen.emit import generator_version
 from .codegen.findings import CheckResult
+from .codegen.mathematics import CHOICES
 from .codegen.options import Options
 from .codegen.package import (
     DesignError,
@@ -240,6 +241,13 @@ def _derived_text(answer: dict[str, Any]) -> list[str]:
     help="Whether a product and a sum may become one fused operation.",
 )
 @click.option(
+    "--mathematics",
+    type=click.Choice(CHOICES),
+    default="own",
+    show_default=True,
+    help="Whose sin, exp ... the C calls: plantc's own, the same bits everywhere, or the C library's.",
+)
+@click.option(
     "--flash",
     callback=_size,
     default="",
@@ -264,11 +272,13 @@ def export_command(
     session.run(body)
 
 
-def _options(precision: str, targets: tuple[str, ...], contract: str, flash: int, ram: int) -> Options:
+def _options(
+    precision: str, targets: tuple[str, ...], contract: str, mathematics: str, flash: int, ram: int
+) -> Options:
     names = tuple(dict.fromkeys(targets))
     if (flash or ram) and set(names) <= {"host"}:
         raise UsageError("--flash and --ram are sizes of a target, and there is none; give --target, or leave them out")
-    return Options(Precision(precision), names, contract == "on", flash=flash, ram=ram)
+    return Options(Precision(precision), names, contract == "on", mathematics, flash=flash, ram=ram)
 
 
 def _export_all(

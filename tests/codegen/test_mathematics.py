@@ -1,0 +1,391 @@
+"""The elementary functions that plantc emits: within their bounds, the same bits everywhere, faults seen."""
+
+import ctypes
+import importlib.util
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import mpmath as mp
+import numpy as np
+import pytest
+from plantc.codegen import mathematics
+from plantc.codegen.compiler import BASE_FLAGS, WARNINGS
+from plantc.codegen.emit import emit
+from plantc.codegen.mathematics import (
+    COEFFICIENTS,
+    ERROR_BOUNDS,
+    EXACT,
+    LIMITS,
+    OWN,
+    mathematics_name,
+    mathematics_text,
+)
+from plantc.codegen.style import Precision
+from plantc.examples.pendulum import pendulum_ekf
+
+PRECISIONS = ("float", "double")
+TWO_ARGUMENTS = {"atan2", "pow"}
+DTYPE = {"float": np.float32, "double": np.float64}
+FLAGS = [*BASE_FLAGS, *WARNINGS, "-ffp-contract=off"]
+
+
+# -- running the functions --------------------------------------------------------------------------------------------
+
+
+def source(precision):
+    """C that runs every function over arrays: t_all_sin(x, y, out, n) ..."""
+    lines = ["#include <math.h>", "#include <stdbool.h>", "#include <stdint.h>"]
+    lines.append(mathematics_text("t", Precision(precision), OWN))
+    for name in sorted(OWN):
+        head = f"void t_all_{name}(const {precision} *x, const {precision} *y, {precision} *out, int n)"
+        second = ", y[i]" if name in TWO_ARGUMENTS else ""
+        lines += [f"{head};", head, "{", "    for (int i = 0; i < n; i++)", "    {"]
+        lines += [f"        out[i] = {mathematics_name('t', name)}(x[i]{second});", "    }"]
+        lines += ["    (void)y;", "}"]
+    return "\n".join(lines) + "\n"
+
+
+class Library:
+    """The functions of a precision, compiled."""
+
+    def __init__(self, folder, precision, compiler=("gcc",), text=None):
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "all.c").write_text(text or source(precision))
+        command = [*compiler, *FLAGS, "-fPIC", "-shared", "all.c", "-o", "all.so", "-lm"]
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        self.library, self.dtype = ctypes.CDLL(str(folder / "all.so")), DTYPE[precision]
+
+    def __call__(self, name, x, y=None):
+        x = np.ascontiguousarray(x, self.dtype)
+        y = x if y is None else np.ascontiguousarray(y, self.dtype)
+        out = np.empty_like(x)
+        pointers = [item.ctypes.data_as(ctypes.c_void_p) for item in (x, y, out)]
+        getattr(self.library, f"t_all_{name}")(*pointers, len(x))
+        return out
+
+
+@pytest.fixture(scope="module")
+def own(tmp_path_factory):
+    """Precision -> its functions, compiled by gcc."""
+    return {name: Library(tmp_path_factory.mktemp(name), name) for name in PRECISIONS}
+
+
+# -- the truth --------------------------------------------------------------------------------------------------------
+
+NUMPY = {
+    "sin": np.sin, "cos": np.cos, "tan": np.tan, "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan,
+    "atan2": np.arctan2, "exp": np.exp, "log": np.log, "tanh": np.tanh, "sinh": np.sinh, "cosh": np.cosh,
+    "pow": np.power,
+}  # fmt: skip
+LARGEST = {"float": float(np.finfo(np.float32).max), "double": float(np.finfo(np.float64).max)}
+
+
+def spacing(truth, precision):
+    """One unit in the last place of a true value, in double."""
+    digits, least = (24, -125) if precision == "float" else (53, -1021)
+    return np.ldexp(1.0, np.maximum(np.frexp(np.abs(truth))[1], least) - digits)
+
+
+def errors_of_float(got, truth):
+    """Errors in ulp of floats against double, whose own error is below 2^-28 of that unit; infinity where one is NaN alone."""
+    over = np.abs(truth) >= LARGEST["float"] * (1 + 2.0**-25)
+    truth = np.where(over, np.copysign(np.inf, truth), truth)
+    with np.errstate(all="ignore"):
+        error = np.abs(got.astype(float) - truth) / spacing(np.where(np.isfinite(truth), truth, 1.0), "float")
+    same = (got.astype(float) == truth) | (np.isnan(got) & np.isnan(truth))
+    return np.where(same, 0.0, np.where(np.isfinite(error), error, np.inf))
+
+
+def truth_of_double(name, *arguments):
+    """Values with 60 digits."""
+    function = getattr(mp, {"pow": "power"}.get(name, name))
+    with mp.workprec(400):
+        return [function(*[mp.mpf(float(item)) for item in row]) for row in zip(*arguments, strict=True)]
+
+
+def errors_of_double(got, truth):
+    """Errors in ulp of doubles against mpmath."""
+    errors = []
+    with mp.workprec(400):
+        for value, true in zip(got, truth, strict=True):
+            if true == 0 or not np.isfinite(value):
+                overflown = np.isinf(value) and abs(true) >= LARGEST["double"] * (1 + mp.mpf(2) ** -54)
+                errors.append(0.0 if (true == 0 and value == 0) or overflown else np.inf)
+                continue
+            exponent = max(int(mp.floor(mp.log(abs(true), 2))), -1022)
+            errors.append(float(abs(mp.mpf(float(value)) - true) / mp.mpf(2) ** (exponent - 52)))
+    return np.array(errors)
+
+
+# -- arguments --------------------------------------------------------------------------------------------------------
+
+RANGES = {"sin": LIMITS, "cos": LIMITS, "tan": LIMITS, "asin": 1.0, "acos": 1.0}
+
+
+def every_float(low, high, stride):
+    """Return each stride-th float between two that are not negative."""
+    ends = [int(np.float32(item).view(np.uint32)) for item in (low, high)]
+    return np.arange(ends[0], ends[1] + 1, stride, dtype=np.uint32).view(np.float32)
+
+
+def largest_argument(name, precision):
+    limit = RANGES.get(name, LARGEST)
+    return limit[precision] if isinstance(limit, dict) else limit
+
+
+def floats_for(name, stride):
+    """Both signs, all magnitudes."""
+    positive = every_float(0.0, largest_argument(name, "float"), stride)
+    return positive if name == "log" else np.concatenate([positive, -positive])
+
+
+def pairs(count, seed=1):
+    """Pairs of numbers of like and of very different magnitude."""
+    random = np.random.default_rng(seed)
+    y, x = random.standard_normal((2, count))
+    scale = 10.0 ** random.uniform(-18, 18, count)
+    return np.concatenate([y, y * scale]).astype(np.float32), np.concatenate([x, x]).astype(np.float32)
+
+
+def doubles_for(name, count, seed=2):
+    """Random points, and those where a function is hard."""
+    random = np.random.default_rng(seed)
+    tiny = 10.0 ** random.uniform(-320, 0, count // 10)
+    if name in ("sin", "cos", "tan"):
+        multiples = np.concatenate(
+            [np.arange(1, count // 10), random.integers(1, int(LIMITS["double"] / 1.6), count // 5)]
+        )
+        near = np.array([float(mp.pi / 2 * int(k)) for k in multiples])
+        spread = [random.uniform(-top, top, count // 5) for top in (0.8, 10.0, 1e6, LIMITS["double"])]
+        return np.concatenate([*spread, near, np.nextafter(near, 0), -near, tiny])
+    if name in ("asin", "acos"):
+        edges = [1 - 10.0 ** random.uniform(-16, 0, count // 10), [1.0, -1.0, 0.5, -0.5]]
+        half = 0.5 + random.uniform(-0.03, 0.03, count // 10)
+        return np.concatenate([random.uniform(-1, 1, count // 2), *edges, half, -half, tiny])
+    wide = 10.0 ** random.uniform(-300, 300, count // 5)
+    return np.concatenate([random.uniform(-3, 3, count // 2), wide, -wide, tiny])
+
+
+# -- within the bounds ------------------------------------------------------------------------------------------------
+
+
+def worst_of_float(library, name, stride):
+    if name in TWO_ARGUMENTS:
+        y, x = pairs(2_000_000 // stride)
+        arguments = (y, x) if name == "atan2" else (np.abs(x), y)
+    else:
+        arguments = (floats_for(name, stride),)
+    with np.errstate(all="ignore"):
+        truth = NUMPY[name](*[item.astype(float) for item in arguments])
+    return float(errors_of_float(library(name, *arguments), truth).max())
+
+
+@pytest.mark.parametrize("name", sorted(OWN))
+def test_float_is_within_its_bound(own, name):
+    assert 0.3 < worst_of_float(own["float"], name, 10_007) <= ERROR_BOUNDS["float"][name]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", sorted(OWN))
+def test_float_is_within_its_bound_on_every_257th(own, name):
+    assert worst_of_float(own["float"], name, 257) <= ERROR_BOUNDS["float"][name]
+
+
+def worst_of_double(library, name, count):
+    if name in TWO_ARGUMENTS:
+        y, x = pairs(count // 2)
+        arguments = (y, x) if name == "atan2" else (np.abs(x), y)
+    else:
+        arguments = (doubles_for(name, count),)
+    return float(errors_of_double(library(name, *arguments), truth_of_double(name, *arguments)).max())
+
+
+@pytest.mark.parametrize("name", sorted(OWN))
+def test_double_is_within_its_bound(own, name):
+    assert 0.3 < worst_of_double(own["double"], name, 1000) <= ERROR_BOUNDS["double"][name]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", sorted(OWN))
+def test_double_is_within_its_bound_on_many_points(own, name):
+    assert worst_of_double(own["double"], name, 20_000) <= ERROR_BOUNDS["double"][name]
+
+
+@pytest.mark.parametrize("name", sorted(OWN))
+def test_the_double_oracle_of_the_floats_is_right(name):
+    """NumPy's double functions, spot-checked against mpmath at floats: an error of 1 ulp there is 2^-29 ulp of a float."""
+    arguments = [item[::101] for item in pairs(2_000)] if name in TWO_ARGUMENTS else [floats_for(name, 4_000_037)]
+    if name == "pow":
+        arguments = [np.abs(arguments[1]), arguments[0]]
+    with np.errstate(all="ignore"):
+        values = NUMPY[name](*[item.astype(float) for item in arguments])
+    usual = [k for k, value in enumerate(values) if np.isfinite(value) and value != 0]
+    chosen = [item[usual] for item in arguments]
+    assert len(usual) > 10
+    assert errors_of_double(values[usual], truth_of_double(name, *chosen)).max() < 2
+
+
+@pytest.mark.parametrize(
+    ("name", "correction", "position"), [("sin", "sin", 1), ("cos", "cos", 0), ("asin", "asin", 2)]
+)
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_a_wrong_coefficient_is_seen(own, precision, name, correction, position, tmp_path, monkeypatch):
+    """A coefficient that is off by one in its fourth digit."""
+    values = list(COEFFICIENTS[precision][correction])
+    values[position] *= 1.001
+    monkeypatch.setitem(COEFFICIENTS[precision], correction, tuple(values))
+    faulty = Library(tmp_path, precision)
+    worst = worst_of_float(faulty, name, 10_007) if precision == "float" else worst_of_double(faulty, name, 1000)
+    assert worst > ERROR_BOUNDS[precision][name]
+
+
+# -- the same everywhere ----------------------------------------------------------------------------------------------
+
+
+def sample(name, precision):
+    """Arguments of every magnitude, both signs, and the special ones."""
+    special = np.array([0.0, -0.0, np.inf, -np.inf, np.nan, 5e-324, 1e-45, LARGEST[precision], -LARGEST[precision]])
+    if precision == "float":
+        with np.errstate(all="ignore"):
+            return np.concatenate(
+                [every_float(0, np.inf, 50_021), -every_float(0, np.inf, 50_023), special.astype("f4")]
+            )
+    return np.concatenate([doubles_for(name, 4000), special])
+
+
+@pytest.mark.parametrize("compiler", ["clang", "zig", "gcc -O0", "gcc -O3 -march=native"])
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_every_compiler_gives_the_same_bits(own, precision, compiler, tmp_path, needs):
+    needs("python:ziglang" if compiler == "zig" else compiler.split()[0])
+    command = [sys.executable, "-m", "ziglang", "cc"] if compiler == "zig" else shlex.split(compiler)
+    other = Library(tmp_path, precision, command)
+    for name in sorted(OWN):
+        arguments = [sample(name, precision)]
+        if name in TWO_ARGUMENTS:
+            arguments.append(np.random.default_rng(3).permutation(arguments[0]))
+        ours, theirs = own[precision](name, *arguments), other(name, *arguments)
+        usual = ~np.isnan(ours)
+        assert np.array_equal(np.isnan(ours), np.isnan(theirs)), name
+        assert ours[usual].tobytes() == theirs[usual].tobytes(), name
+
+
+# -- properties -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_symmetries_and_ranges(own, precision):
+    run = own[precision]
+    for name in ("sin", "tan", "asin", "atan"):
+        x = sample(name, precision)
+        up, down = run(name, x), run(name, -x)
+        usual = ~np.isnan(up)
+        assert np.array_equal(up[usual], -down[usual]), name
+        assert np.array_equal(np.signbit(up[usual]), ~np.signbit(down[usual])), name
+    x = sample("cos", precision)
+    assert np.array_equal(run("cos", x), run("cos", -x), equal_nan=True)
+    for name in ("sin", "cos"):
+        assert np.nanmax(np.abs(run(name, sample(name, precision)))) <= 1
+    angle = run("atan2", *np.random.default_rng(4).permutation(np.tile(sample("atan2", precision), 2)).reshape(2, -1))
+    assert np.nanmax(np.abs(angle)) <= DTYPE[precision](np.pi)
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+@pytest.mark.parametrize(
+    ("name", "low", "high"), [("sin", -1.5, 1.5), ("asin", -1, 1), ("atan", -50, 50), ("tan", -1.5, 1.5)]
+)
+def test_monotone_pieces_rise(own, precision, name, low, high):
+    """Over steps of many units in the last place, so that rounding cannot turn them."""
+    values = own[precision](name, np.linspace(low, high, 4001)).astype(float)
+    assert np.all(np.diff(values) > 0)
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_atan2_treats_zeros_and_infinities_as_c99_says(own, precision):
+    special = np.array([0.0, -0.0, 1.0, -1.0, np.inf, -np.inf, np.nan, 1e-45, -1e-45, 3e38, -3e38], DTYPE[precision])
+    y, x = (item.ravel() for item in np.meshgrid(special, special))
+    got, true = own[precision]("atan2", y, x), np.arctan2(y.astype(float), x.astype(float))
+    assert np.array_equal(np.isnan(got), np.isnan(true))
+    usual = ~np.isnan(true)
+    assert np.array_equal(np.signbit(got[usual]), np.signbit(true[usual]))
+    assert np.abs(got[usual] - true[usual]).max() < 3e-7
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_what_has_no_value_gives_nan(own, precision):
+    beyond = np.nextafter(DTYPE[precision](LIMITS[precision]), DTYPE[precision](np.inf))
+    for name in ("sin", "cos", "tan"):
+        assert np.isnan(own[precision](name, [np.inf, -np.inf, np.nan, beyond, -beyond])).all()
+        assert np.isfinite(own[precision](name, [LIMITS[precision], -LIMITS[precision]])).all()
+    for name in ("asin", "acos"):
+        assert np.isnan(own[precision](name, [np.inf, -np.inf, np.nan, 1.0001, -1.0001])).all()
+
+
+# -- where the numbers come from, and the text ------------------------------------------------------------------------
+
+
+def test_the_coefficients_are_those_of_the_script(checkout, monkeypatch):
+    path = Path(checkout) / "benchmarks" / "mathematics_coefficients.py"
+    spec = importlib.util.spec_from_file_location("mathematics_coefficients", path)
+    script = importlib.util.module_from_spec(spec)
+    monkeypatch.setitem(sys.modules, spec.name, script)
+    spec.loader.exec_module(script)
+    assert script.coefficients() == COEFFICIENTS
+    for precision, bits in (("float", 24), ("double", 53)):
+        for name in COEFFICIENTS[precision]:
+            terms = len(COEFFICIENTS[precision][name])
+            weight = float(script.CORRECTIONS[name].high) ** (2 if name in ("cos", "exp") else 1)
+            assert script.truncation(name, terms) * weight < 2.0 ** -(bits + 3), (precision, name)
+
+
+def test_every_function_says_its_bound():
+    for precision in PRECISIONS:
+        text = mathematics_text("t", Precision(precision), OWN)
+        assert set(ERROR_BOUNDS[precision]) == set(OWN)
+        for name in OWN:
+            assert f"At most {ERROR_BOUNDS[precision][name]:g} ulp" in text
+        assert max(ERROR_BOUNDS[precision].values()) <= 2
+
+
+def test_only_what_is_used_is_written():
+    text = emit(pendulum_ekf, "float").source
+    assert "static float pendulum_ekf_math_sin(" in text
+    assert "math_atan" not in text
+    assert "sinf(" not in text
+    assert mathematics_text("t", Precision("float"), ()) == ""
+
+
+def test_libm_is_called_where_it_is_asked_for():
+    text = emit(pendulum_ekf, "float", mathematics="libm")
+    assert "math_sin" not in text.source
+    assert "sinf(" in text.source
+    assert "of the C library" in text.header
+    assert "plantc's own" in emit(pendulum_ekf, "float").header
+    with pytest.raises(ValueError, match="take 'own' or 'libm'"):
+        emit(pendulum_ekf, mathematics="mine")
+
+
+def test_a_long_prefix_leaves_lines_narrow():
+    text = mathematics_text("a_name_that_a_person_may_well_choose_for_a_filter", Precision("float"), OWN)
+    assert max(len(line) for line in text.split("\n")) <= 120
+
+
+def test_a_function_without_a_body_ends_in_a_sentence():
+    with pytest.raises(mathematics.ModelError, match=r"plantc has no erf of its own; rewrite it with acos, .*libm"):
+        mathematics_text("t", Precision("float"), {"erf"})
+    assert not OWN & EXACT
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_the_addon_finds_nothing(precision, tmp_path, needs):
+    needs("cppcheck")
+    head = "#include <math.h>\n#include <stdbool.h>\n#include <stdint.h>\n"
+    (tmp_path / "all.c").write_text(head + mathematics_text("t", Precision(precision), OWN))
+    done = subprocess.run(
+        ["cppcheck", "--std=c99", "--enable=all", "--addon=misra", "--suppress=missingIncludeSystem",
+         "--suppress=unusedFunction", "--quiet", "all.c"],
+        cwd=tmp_path, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.stderr.strip() == ""
