@@ -14,7 +14,7 @@ from typing import Any
 
 MANIFEST = "manifest.json"
 
-MEASURED = frozenset({"evidence.json", "report.html"})
+MEASURED = frozenset({"evidence.json", "report.html", "audit.json"})
 """Files that hold what was measured on a machine; all others are the same bytes anywhere."""
 
 Content = str | bytes

@@ -17,10 +17,12 @@ import numpy as np
 from ..symbolic.block import Block
 from ..symbolic.signals import Kind, Signal
 from .compiler import contraction_flag, find_compiler
+from .coverage import measure_coverage
 from .crosscheck import CrossCheck, cross_check, make_probes, make_views
 from .emit import CText, emit, generator_version, templates
 from .findings import CheckResult, Findings, Mismatch
 from .folder import MEASURED, FolderError, check_folder_is_free, read_manifest, write_files, write_folder
+from .fuzz import fuzz_source
 from .layout import default_params
 from .on_target import chosen_targets, measure_targets
 from .options import Options
@@ -102,6 +104,7 @@ Measurement = Callable[[Draft], Findings]
 
 MEASUREMENTS: list[tuple[str, Measurement]] = [
     ("vectors", lambda draft: Findings([run_vectors(draft.block.name, draft.files)])),
+    ("coverage", lambda draft: _coverage(draft)),
     ("targets", lambda draft: measure_targets(draft.block, draft.options, draft.text, draft.check)),
 ]
 """What every export that passed its cross-check is measured by, in this order: (what is being done, how)."""
@@ -143,12 +146,19 @@ def build_files(block: Block, options: Options | str = "double") -> dict[str, st
         f"src/{name}.c": text.source,
         "test/test_vectors.c": vectors_source(block, precision, vectors),
         "examples/example_main.c": wrapped(main),
+        "verify/fuzz_main.c": fuzz_source(block, chosen.precision),
         "CMakeLists.txt": templates().get_template("CMakeLists.txt.j2").render(**context),
     }
     files["trace.json"] = trace_text(block, text, vectors.vectors)
     manifest = _manifest(block, chosen, text, files, len(vectors.vectors))
     files["manifest.json"] = json.dumps(manifest, indent=2) + "\n"
     return files
+
+
+def _coverage(draft: Draft) -> Findings:
+    return measure_coverage(
+        draft.block, draft.options.precision.name, draft.files, draft.text.provenance, draft.check.calls
+    )
 
 
 def _rare_calls(block: Block, precision: str) -> CrossCheck:

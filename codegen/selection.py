@@ -143,14 +143,7 @@ def crafted(block: Block, view: View, probes: Sequence[Probe], missing: frozense
         counting = {signal.name: 2 for signal in block.param_signals_flat() if signal.kind is Kind.COUNT}
         counted = {signal.name: 3 for signal in block.memory_signals_flat() if signal.kind is Kind.COUNT}
         limited, late = fill(params.copy(), counting), fill(memory.copy(), counted)
-        gates = {
-            signal.name: np.full(signal.size, 1e-9)
-            for signal in block.param_signals_flat()
-            if signal.kind is Kind.REAL
-            and signal.default is not None
-            and not any(signal.default)
-            and signal.low[0] == 0
-        }
+        gates = {item.name: np.full(item.size, 1e-9) for item in block.param_signals_flat() if is_off(item)}
         gated = fill(params.copy(), gates)
 
         def probe(memory: Record, inputs: Record, params: Record, name: str = name) -> Probe:
@@ -181,7 +174,7 @@ def _bad_fields(signals: Sequence[Signal], values: dict[str, Any]) -> Iterator[d
             continue
         now = values[signal.name].astype(float)
         low, high = np.array(signal.low), np.array(signal.high)
-        if _is_packed(signal):  # what lies beside its diagonal, and the diagonal
+        if is_packed(signal):  # what lies beside its diagonal, and the diagonal
             aside = low < 0
             yield {signal.name: np.where(aside, high, now)}
             yield {signal.name: np.where(aside, np.maximum(1e3 * np.max(np.abs(now)), np.abs(now)), now)}
@@ -198,7 +191,7 @@ def _bad_fields(signals: Sequence[Signal], values: dict[str, Any]) -> Iterator[d
 
 def _far_and_certain(signals: Sequence[Signal]) -> Iterator[dict[str, Any]]:
     """Yield a memory far outside its ranges that holds no doubt (no variance): what is read differs beyond measure."""
-    packed = [signal for signal in signals if _is_packed(signal)]
+    packed = [signal for signal in signals if is_packed(signal)]
     if packed:
         values = {
             signal.name: np.full(signal.size, 1e10)
@@ -208,7 +201,13 @@ def _far_and_certain(signals: Sequence[Signal]) -> Iterator[dict[str, Any]]:
         yield values | {signal.name: np.zeros(signal.size) for signal in packed}
 
 
-def _is_packed(signal: Signal) -> bool:
+def is_off(signal: Signal) -> bool:
+    """Whether a parameter is a number that is zero by default, and may be more: a gate that is off."""
+    at_zero = signal.default is not None and not any(signal.default) and signal.low[0] == 0
+    return signal.kind is Kind.REAL and at_zero
+
+
+def is_packed(signal: Signal) -> bool:
     """Whether a field is a symmetric matrix, packed: elements of either sign beside positive ones."""
     low = np.array(signal.low)
     return signal.kind is Kind.REAL and bool(np.any(low < 0) and np.any(low >= 0))

@@ -207,6 +207,8 @@ class NativeView(View):
         C to use instead of what `emit` gives: for tests that plant a fault.
     contract : bool
         Whether a product and a sum may be fused.
+    library : Path, optional
+        A library that was built already; then nothing is compiled.
     mathematics : {"own", "libm"}
         Whose `sin`, `exp` ... the emitted C calls.
 
@@ -225,12 +227,14 @@ class NativeView(View):
         *,
         text: CText | None = None,
         contract: bool = False,
+        library: Path | None = None,
         mathematics: str = "own",
     ):
         super().__init__(block, precision)
         self.text = text or emit(block, precision, mathematics=mathematics)
         name = block.name
-        self.path: Path = library_for({f"{name}.h": self.text.header, f"{name}.c": self.text.source}, contract=contract)
+        sources = {f"{name}.h": self.text.header, f"{name}.c": self.text.source}
+        self.path: Path = library or library_for(sources, contract=contract)
         self.library = ctypes.CDLL(str(self.path))
         self._has_params = bool(block.param_group().members)
         self._functions: dict[str, Any] = {}

@@ -1,4 +1,4 @@
-"""The command line: derive, export, check, demo."""
+"""The command line: derive, export, check, audit, demo."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from . import models
+from .codegen.audit import AUDITS, AuditError, AuditResult, audit_folder
 from .codegen.compiler import CompilerError
 from .codegen.emit import generator_version
 from .codegen.findings import CheckResult
@@ -87,7 +88,7 @@ class Session:
 
 def _sentence(error: Exception) -> str:
     """Return what the user reads of an error that stops a command."""
-    if isinstance(error, (UsageError, ModelError, DesignError, CompilerError)):
+    if isinstance(error, (UsageError, ModelError, DesignError, CompilerError, AuditError)):
         return str(error)
     if isinstance(error, OSError):
         return f"{error.filename}: {error.strerror}" if error.filename and error.strerror else str(error)
@@ -404,6 +405,65 @@ def check_command(folder: Path, model: str, steps: int, as_json: bool, debug: bo
         session.finish(result, f"failed: {folder}: {what}", CHECK_FAILED)
 
     session.run(body)
+
+
+@main.command(name="audit")
+@click.argument("folder", type=click.Path(path_type=Path))
+@click.option(
+    "--only", multiple=True, metavar="NAME", help=f"Run this audit only (again for more): {', '.join(dict(AUDITS))}."
+)
+@click.option(
+    "--calls",
+    type=click.IntRange(1000, 10**9),
+    default=3_000_000,
+    show_default=True,
+    help="Random calls for sanitizers.",
+)
+@click.option(
+    "--seconds", type=click.FloatRange(1, 86400), default=5, show_default=True, help="How long libFuzzer searches."
+)
+@_common
+def audit_command(folder: Path, only: tuple[str, ...], calls: int, seconds: float, as_json: bool, debug: bool) -> None:
+    """Look at the C in FOLDER with analysers, sanitizers and fuzzers; writes FOLDER/audit.json."""
+    session = Session(as_json, debug)
+
+    def body() -> NoReturn:
+        with session.progress() as display:
+            task = display.add_task("audit", total=None)
+            found = audit_folder(
+                folder,
+                only=only,
+                calls=calls,
+                seconds=seconds,
+                progress=lambda what, done, total: display.update(
+                    task, description=f"{folder.name}: {what}", completed=done, total=total
+                ),
+            )
+        for line in audit_text(found):
+            session.say(line)
+        result = {"folder": str(folder), **found.as_dict()}
+        if not found.passed:
+            session.finish(result, f"failed: {folder}: an audit has a finding", CHECK_FAILED)
+        if found.missing:
+            session.finish(result, f"error: {'; '.join(dict.fromkeys(found.missing.values()))}", USER_MUST_MEND)
+        session.finish(result, f"{folder}: no finding in {', '.join(found.findings)}", GOOD)
+
+    session.run(body)
+
+
+def audit_text(found: AuditResult) -> list[str]:
+    """Return what the audits of a folder found, for a terminal."""
+    lines = []
+    for check in found.checks:
+        mark = "ok  " if check.passed else "FAIL"
+        calls = f"  {check.calls} calls" if check.calls else ""
+        lines.append(f"  {mark} {check.name}{calls}{f'  {check.note}' if check.note else ''}")
+    for row in found.findings["misra"].facts["deviations"] if "misra" in found.findings else []:
+        lines.append(f"       {row['file']}: rule {row['rule']}, {row['count']} times: {row['reason']}")
+    lines += [f"  not run: {name}" for name in found.missing]
+    if found.folder.changed:
+        lines.append(f"  changed since the export: {', '.join(found.folder.changed)}")
+    return lines
 
 
 @main.command(name="demo")

@@ -273,6 +273,7 @@ FILES = {
     "CMakeLists.txt",
     "evidence.json",
     "examples/example_main.c",
+    "verify/fuzz_main.c",
     "manifest.json",
     "src/low_pass.c",
     "src/low_pass.h",
