@@ -1,6 +1,7 @@
 """Targets against the host: the same bits, or within a tolerance that is said; and planted faults that are seen."""
 
 import json
+import re
 from dataclasses import replace
 
 import pytest
@@ -222,3 +223,24 @@ def test_a_missing_tool_is_told_before_any_work(monkeypatch, needs):
         chosen_targets(Options(targets=("host", "cortex-m4")))
     assert [target.name for target in chosen_targets(Options())] == ["host"]
     assert issubclass(TargetError, CompilerError)
+
+
+@pytest.mark.slow
+def test_the_figures_of_the_page_are_what_is_measured(needs, checkout):
+    """Another compiler or a better emitter moves them a little; a page that is a tenth off is out of date."""
+    needs(*TOOLS)
+    rows = re.findall(
+        r"^\| (float|double) \| ([a-z0-9-]+) \| (\d+) \| (\d+) \| (\d+) % \|$",
+        (checkout / "docs/targets.md").read_text(),
+        re.MULTILINE,
+    )
+    assert {(precision, name) for precision, name, *_ in rows} == {(p, n) for p in ("float", "double") for n in CROSS}
+    for precision, name, *told in rows:
+        counts = []
+        for contract in (False, True):
+            view = TargetView(quadrotor_ekf, precision, TARGETS[name], contract=contract)
+            view.run(free_trace(quadrotor_ekf, FREE_STEPS))
+            counts.append(view.most["step"].instructions)
+        for said, seen in zip(told, counts, strict=False):
+            assert abs(int(said) - seen) < 0.1 * seen, (precision, name, told, counts)
+        assert abs(int(told[2]) - 100 * (1 - counts[1] / counts[0])) < 3, (precision, name, told, counts)
