@@ -17,7 +17,7 @@ import numpy as np
 from ..symbolic.errors import ModelError
 from .style import WIDTH, Precision, wrap_line
 
-EXACT = frozenset({"sqrt", "fabs", "floor", "ceil", "copysign"})
+EXACT = frozenset({"sqrt", "fabs", "floor", "ceil"})
 """Functions of <math.h> whose result IEEE 754 fixes to the last bit: these are called as they are."""
 
 CHOICES = ("own", "libm")
@@ -45,10 +45,10 @@ _NEEDS = {
     "asin": ("asin_series",),
     "acos": ("asin_series",),
     "atan": ("atan_series",),
-    "atan2": ("atan_series",),
+    "atan2": ("atan_series", "is_negative"),
     "exp": ("exp_series", "scaled"),
     "log": ("log_series", "normalised"),
-    "pow": ("pow_log_series", "normalised", "exp_series", "scaled"),
+    "pow": ("pow_log_series", "normalised", "exp_series", "scaled", "is_negative"),
     "tanh": ("tanh_series", "exp_series", "scaled"),
     "sinh": ("sinh_series", "exp_series", "scaled"),
     "cosh": ("exp_series", "scaled"),

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from plantc.codegen import mathematics
 from plantc.codegen.compiler import BASE_FLAGS, WARNINGS
-from plantc.codegen.emit import emit
+from plantc.codegen.emit import emit, templates
 from plantc.codegen.mathematics import (
     COEFFICIENTS,
     CONSTANTS,
@@ -24,6 +24,7 @@ from plantc.codegen.mathematics import (
     mathematics_text,
 )
 from plantc.codegen.style import Precision
+from plantc.codegen.targets import find_toolchain, target_named
 from plantc.examples.pendulum import pendulum_ekf
 
 PRECISIONS = ("float", "double")
@@ -289,6 +290,104 @@ def test_every_compiler_gives_the_same_bits(own, precision, compiler, tmp_path, 
         usual = ~np.isnan(ours)
         assert np.array_equal(np.isnan(ours), np.isnan(theirs)), name
         assert ours[usual].tobytes() == theirs[usual].tobytes(), name
+
+
+HASHING = """
+#include <string.h>
+{unsigned} hash_of_{name}(void);
+{unsigned} hash_of_{name}(void)
+{{
+    {unsigned} hash = 1469598103u;
+    for ({unsigned} i = 1u; i <= {count}u; i++)
+    {{
+        {unsigned} pattern = i * ({unsigned}){odd}u;
+        {real} x = {zero};
+        memcpy(&x, &pattern, sizeof x);
+        {real} near = ({real})(int32_t)(i - {count}u / 2u) * {step};
+        {real} values[2];
+        values[0] = {function}(x{second});
+        values[1] = {function}(near{third});
+        for (int k = 0; k < 2; k++)
+        {{
+            {unsigned} bits = 0u;
+            if (values[k] == values[k])
+            {{
+                memcpy(&bits, &values[k], sizeof bits);
+            }}
+            hash = (hash ^ bits) * 16777619u;
+        }}
+    }}
+    return hash;
+}}
+"""
+"""A hash over the bits of a function, NaN as one: at patterns spread over all numbers, and on a grid about 0."""
+
+
+def hashes_source(precision, count):
+    """C of one hash for each function, of the numbers of a precision."""
+    lines = ["#include <math.h>", "#include <stdbool.h>", "#include <stdint.h>"]
+    lines.append(mathematics_text("t", Precision(precision), OWN))
+    single = precision == "float"
+    for name in sorted(OWN):
+        two = name in TWO_ARGUMENTS
+        lines.append(
+            HASHING.format(
+                name=name,
+                function=mathematics_name("t", name),
+                count=count,
+                real=precision,
+                unsigned="uint32_t" if single else "uint64_t",
+                odd=2654435761 if single else 11400714819323198485,
+                zero="0.0f" if single else "0.0",
+                step="0.0137f" if single else "0.0137",
+                second=", near" if two else "",
+                third=", x" if two else "",
+            )  # fmt: skip
+        )
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize("target", ["cortex-m4", "cortex-m7", "rv32"])
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_every_target_gives_the_same_bits(precision, target, tmp_path, needs):
+    machine = target_named(target)
+    needs("gcc", machine.emulator)
+    count, kind = 20_000, "uint32_t" if precision == "float" else "uint64_t"
+    names = sorted(OWN)
+    declared = "".join(f"{kind} hash_of_{name}(void);\n" for name in names)
+    calls = "".join(f"    hashes[{k}] = hash_of_{name}();\n" for k, name in enumerate(names))
+    body = f"#include <stdint.h>\n{{head}}{declared}{{function}}\n{{{{\n    {kind} hashes[{len(names)}];\n{calls}    {{write}}\n}}}}\n"
+    (tmp_path / "functions.c").write_text(hashes_source(precision, count))
+    here = body.format(
+        head="#include <stdio.h>\n", function="int main(void)",
+        write="return fwrite(hashes, sizeof hashes[0], sizeof hashes / sizeof hashes[0], stdout) == 0u;",
+    )  # fmt: skip
+    (tmp_path / "here_main.c").write_text(here)
+    flags = ["-std=c99", "-O2", "-ffp-contract=off", "functions.c", "here_main.c", "-o", "here", "-lm"]
+    subprocess.run(["gcc", *flags], cwd=tmp_path, check=True)
+    ours = subprocess.run([str(tmp_path / "here")], capture_output=True, check=True).stdout
+    there = body.format(
+        head='#include "machine_main.h"\n', function="void run_calls(void)",
+        write="write_answers(hashes, (uint32_t)sizeof hashes);",
+    )  # fmt: skip
+    program = find_toolchain(machine, kind="zig").program(
+        {
+            "functions.c": hashes_source(precision, count),
+            "runner_main.c": there,
+            "machine_main.h": templates().get_template("machine_main.h").render(),
+            "machine_main.c": templates().get_template("machine_main.c").render(),
+        }
+    )
+    (tmp_path / "calls.bin").write_bytes(b"")
+    command = [machine.emulator, *machine.machine, "-nographic", "-monitor", "none", "-serial", "none"]
+    command += ["-semihosting-config", "enable=on,target=native", "-kernel", str(program)]
+    subprocess.run(command, cwd=tmp_path, check=True, timeout=300)
+    theirs = (tmp_path / "answers.bin").read_bytes()
+    assert len(ours) == len(names) * (4 if precision == "float" else 8)
+    assert len(set(np.frombuffer(ours, kind.removesuffix("_t")))) == len(names)
+    differing = [name for k, name in enumerate(names) if theirs[len(ours) // len(names) * k :][:4] != ours[len(ours) // len(names) * k :][:4]]
+    assert differing == []
+    assert theirs == ours
 
 
 # -- properties -------------------------------------------------------------------------------------------------------
