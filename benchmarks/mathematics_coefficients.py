@@ -58,7 +58,7 @@ CORRECTIONS = {
     "log": Correction(_logarithm, mp.mpf(0), (3 - 2 * mp.sqrt(2)) ** 2, 3, 7),
     "tanh": Correction(_odd(mp.tanh), mp.mpf(0), mp.mpf("0.3025"), 6, 11),
     "sinh": Correction(_odd(mp.sinh), mp.mpf(0), mp.mpf(1), 4, 7),
-    "pow_log": Correction(_logarithm, mp.mpf(0), mp.mpf(1) / 4096, 2, 4),
+    "pow_log": Correction(_logarithm, mp.mpf(0), mp.mpf(1) / 2000, 2, 4),
 }
 
 
@@ -102,6 +102,26 @@ def coefficients() -> dict[str, dict[str, tuple[float, ...]]]:
     return answer
 
 
+def constants() -> dict[str, dict[str, tuple[object, ...]]]:
+    """Return precision -> name -> numbers that are no coefficients: parts of pi/2 and ln 2, nearest numbers and rests."""
+    answer: dict[str, dict[str, tuple[object, ...]]] = {}
+    for precision, quarter, natural in (("float", [12, 24], [14, 24]), ("double", [29, 29, 29, 53], [40, 53])):
+        single = precision == "float"
+
+        def pair(value: mp.mpf, single: bool = single) -> tuple[float, float]:
+            near = rounded(value, single)
+            exact = mp.mpf(float(np.float32(near))) if single else mp.mpf(near)
+            return near, rounded(value - exact, single)
+
+        answer[precision] = {
+            "pi_half": tuple(rounded(mp.mpf(part), single) for part in parts(mp.pi / 2, quarter)),
+            "pi_multiples": tuple(pair(k * mp.pi / 4) for k in range(5)),
+            "ln2": tuple(rounded(mp.mpf(part), single) for part in parts(mp.log(2), natural)),
+            "sixteenths": tuple(pair(mp.log(mp.mpf(k) / 16)) for k in range(11, 24)),
+        }
+    return answer
+
+
 def _value(polynomial_of_z: list[mp.mpf], z: mp.mpf) -> mp.mpf:
     return sum(value * z**k for k, value in enumerate(polynomial_of_z))
 
@@ -119,7 +139,7 @@ def truncation(name: str, terms: int) -> float:
 
 
 def main() -> None:
-    """Print the table as it stands in plantc.codegen.mathematics."""
+    """Print the tables as they stand in plantc.codegen.mathematics."""
     for precision, table in coefficients().items():
         print(f'    "{precision}": {{')
         for name, values in table.items():
@@ -127,6 +147,11 @@ def main() -> None:
             for value in values:
                 print(f"            {value!r},")
             print("        ),")
+        print("    },")
+    for precision, numbers in constants().items():
+        print(f'    "{precision}": {{')
+        for name, values in numbers.items():
+            print(f'        "{name}": {values!r},')
         print("    },")
 
 

@@ -27,9 +27,15 @@ LIMITS = {"float": 2.0**30, "double": 2.0**24}
 """The largest |x| that sin, cos and tan take; beyond it they give NaN."""
 
 ERROR_BOUNDS: dict[str, dict[str, float]] = {
-    "float": {"sin": 1.8, "cos": 1.8, "tan": 1.8, "asin": 1.2, "acos": 1.2, "atan": 1.5, "atan2": 1.7},
-    "double": {"sin": 1.3, "cos": 1.3, "tan": 1.8, "asin": 1.2, "acos": 1.2, "atan": 1.2, "atan2": 1.6},
-}
+    "float": {
+        "sin": 1.5, "cos": 1.5, "tan": 1.5, "asin": 1.2, "acos": 1.2, "atan": 1.5, "atan2": 1.6, "exp": 1.1, "log": 1.0,
+        "pow": 1.1, "tanh": 1.5, "sinh": 1.7, "cosh": 1.5,
+    },
+    "double": {
+        "sin": 1.3, "cos": 1.3, "tan": 1.3, "asin": 1.2, "acos": 1.2, "atan": 1.5, "atan2": 1.6, "exp": 1.1, "log": 1.0,
+        "pow": 1.1, "tanh": 1.5, "sinh": 1.7, "cosh": 1.5,
+    },
+}  # fmt: skip
 """The largest error of each function, in units in the last place of the true value."""
 
 _NEEDS = {
@@ -40,6 +46,12 @@ _NEEDS = {
     "acos": ("asin_series",),
     "atan": ("atan_series",),
     "atan2": ("atan_series",),
+    "exp": ("exp_series", "scaled"),
+    "log": ("log_series", "normalised"),
+    "pow": ("pow_log_series", "normalised", "exp_series", "scaled"),
+    "tanh": ("tanh_series", "exp_series", "scaled"),
+    "sinh": ("sinh_series", "exp_series", "scaled"),
+    "cosh": ("exp_series", "scaled"),
 }
 """What each function needs beside itself."""
 
@@ -53,6 +65,12 @@ _NOTES = {
     "asin": "NaN outside -1 .. 1.",
     "acos": "NaN outside -1 .. 1.",
     "atan": "for every x, infinities too; NaN gives NaN.",
+    "exp": "infinity where it overflows, 0 where it underflows; NaN gives NaN.",
+    "log": "-infinity of 0, NaN of negative numbers and of NaN.",
+    "pow": "special cases as C99 says: pow(x, 0) = pow(1, y) = 1, NaN for negative x and y no integer.",
+    "tanh": "for every x; NaN gives NaN.",
+    "sinh": "infinity where it overflows; NaN gives NaN.",
+    "cosh": "infinity where it overflows; NaN gives NaN.",
     "atan2": "signed zeros and infinities as C99 says; NaN gives NaN.",
 }
 
@@ -124,7 +142,7 @@ COEFFICIENTS: dict[str, dict[str, tuple[float, ...]]] = {
         ),
         "pow_log": (
             0.6666667,
-            0.40006977,
+            0.4001429,
         ),
     },
     "double": {
@@ -239,37 +257,70 @@ COEFFICIENTS: dict[str, dict[str, tuple[float, ...]]] = {
         ),
         "pow_log": (
             0.6666666666666666,
-            0.4000000000006617,
-            0.2857142721627369,
-            0.22231102585497017,
+            0.40000000000568653,
+            0.2857142288528101,
+            0.222404146227464,
         ),
     },
 }
 """Precision -> correction -> coefficients, constant first; what each corrects is said in the template."""
 
-_PI_HALF = {
-    "float": (1.5703125, 0.00048382679),
-    "double": (1.570796325802803, 9.920935774287987e-10, 2.2517417706346578e-18, 3.5215598651832e-27),
+CONSTANTS: dict[str, dict[str, tuple[Any, ...]]] = {
+    "float": {
+        "pi_half": (1.5703125, 0.0004838268),
+        "pi_multiples": (
+            (0.0, 0.0),
+            (0.7853982, -2.1855694e-08),
+            (1.5707964, -4.371139e-08),
+            (2.3561945, -5.9624403e-09),
+            (3.1415927, -8.742278e-08),
+        ),
+        "ln2": (0.69311523, 3.1946183e-05),
+        "sixteenths": (
+            (-0.37469345, 3.8705097e-09),
+            (-0.2876821, 1.37775436e-08),
+            (-0.20763937, 1.6100764e-09),
+            (-0.13353139, -1.0038866e-09),
+            (-0.06453852, 2.4172309e-09),
+            (0.0, 0.0),
+            (0.06062462, 7.905942e-12),
+            (0.11778303, 3.2986907e-09),
+            (0.17185026, -7.145759e-09),
+            (0.22314355, 3.5408485e-09),
+            (0.2719337, 1.0869003e-08),
+            (0.31845373, 1.9658553e-09),
+            (0.3629055, -8.629968e-09),
+        ),
+    },
+    "double": {
+        "pi_half": (1.570796325802803, 9.920935774287987e-10, 2.2517417706346578e-18, 3.5215598651832e-27),
+        "pi_multiples": (
+            (0.0, 0.0),
+            (0.7853981633974483, 3.061616997868383e-17),
+            (1.5707963267948966, 6.123233995736766e-17),
+            (2.356194490192345, 9.184850993605148e-17),
+            (3.141592653589793, 1.2246467991473532e-16),
+        ),
+        "ln2": (0.6931471805592082, 7.371002565167799e-13),
+        "sixteenths": (
+            (-0.3746934494414107, 3.9243112288632396e-18),
+            (-0.2876820724517809, -2.607160616442564e-17),
+            (-0.2076393647782445, -1.2053243216686129e-17),
+            (-0.13353139262452263, 3.664457663660085e-18),
+            (-0.06453852113757118, 6.470486661692933e-18),
+            (0.0, 0.0),
+            (0.06062462181643484, 2.6424025938726934e-18),
+            (0.11778303565638346, -1.1971685747593677e-18),
+            (0.17185025692665923, -6.0224538210113705e-18),
+            (0.22314355131420976, -9.091270597324799e-18),
+            (0.27193371548364176, 7.83319637697442e-19),
+            (0.3184537311185346, 2.7114779367326236e-17),
+            (0.3629054936893685, -2.1492361455310972e-17),
+        ),
+    },
 }
-"""Parts of pi/2: all but the last are short, so that products with a small integer are exact."""
-
-_PI_MULTIPLES = {
-    "float": (
-        (0.0, 0.0),
-        (0.7853982, -2.1855694e-08),
-        (1.5707964, -4.371139e-08),
-        (2.3561945, -5.9624403e-09),
-        (3.1415927, -8.742278e-08),
-    ),
-    "double": (
-        (0.0, 0.0),
-        (0.7853981633974483, 3.061616997868383e-17),
-        (1.5707963267948966, 6.123233995736766e-17),
-        (2.356194490192345, 9.184850993605148e-17),
-        (3.141592653589793, 1.2246467991473532e-16),
-    ),
-}
-"""Multiples of pi/4: the nearest number, and what is missing."""
+"""Precision -> other numbers: parts of pi/2 and of ln 2, all but the last short, so that products with a small integer are
+exact; multiples of pi/4 and the logarithms of 11/16 .. 23/16: the nearest number, and what is missing."""
 
 
 def mathematics_name(prefix: str, function: str) -> str:
@@ -335,9 +386,18 @@ def mathematics_text(prefix: str, precision: Precision, functions: Iterable[str]
         "c": precision.literal,
         "needed": needed.__contains__,
         "coefficients": COEFFICIENTS[kind],
-        "pi_half": _PI_HALF[kind],
-        "pi_multiples": _PI_MULTIPLES[kind],
+        **CONSTANTS[kind],
         "two_over_pi": 2.0 / math.pi,
+        "per_ln2": 1.0 / math.log(2.0),
+        "most": 89.0 if precision.is_float else 710.0,
+        "least": -104.0 if precision.is_float else -746.0,
+        "flat": 10.0 if precision.is_float else 22.0,
+        "fine": range(16 if precision.is_float else 32),
+        "coarse": range(5 if precision.is_float else 17),
+        "top": 64 if precision.is_float else 512,
+        "splitter": 4097.0 if precision.is_float else 134217729.0,
+        "smallest": float(info.smallest_normal),
+        "infinity": "INFINITY" if precision.is_float else "(double)INFINITY",
         "limit": LIMITS[kind],
         "limit_text": limit,
         "tiny": 2.0**-13 if precision.is_float else 2.0**-27,

@@ -24,10 +24,11 @@ MACHINE_MEMORY = 4 * 1024 * 1024
 """Bytes of program memory and of data memory that the emulated machines have, whatever a target is said to have."""
 
 SHIM = {
-    "math.h": "double fabs(double x);\nfloat fabsf(float x);\ndouble floor(double x);\nfloat floorf(float x);\n"
+    "math.h": '#define NAN (__builtin_nanf(""))\n#define INFINITY (__builtin_inff())\n'
+    "double fabs(double x);\nfloat fabsf(float x);\ndouble floor(double x);\nfloat floorf(float x);\n"
     + "".join(
         f"double {name}(double x);\nfloat {name}f(float x);\n"
-        for name in ("sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "tanh", "sinh", "cosh")
+        for name in ("sqrt", "ceil", "sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "tanh", "sinh", "cosh")
     )
     + "".join(
         f"double {name}(double x, double y);\nfloat {name}f(float x, float y);\n"

@@ -41,7 +41,7 @@ from ..symbolic.program import (
 )
 from ..symbolic.signals import Kind, Signal, Status
 from .graph import Graph, Node
-from .mathematics import OWN, mathematics_name
+from .mathematics import EXACT, mathematics_name
 from .provenance import Genealogy, Parent, TracedLines
 from .rows import pair_operations
 from .style import WIDTH, Precision, comment_lines, wrap_line
@@ -475,7 +475,7 @@ class CoreWriter:
     def _call(self, name: str, *arguments: str) -> str:
         function = self.precision.function(name)
         self.functions.add(function)
-        if self.style.mathematics == "own" and name in OWN:
+        if self.style.mathematics == "own" and name not in EXACT:
             self.own.add(name)
             function = mathematics_name(self.root, name)
         return f"{function}({', '.join(arguments)})"

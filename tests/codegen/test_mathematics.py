@@ -15,6 +15,7 @@ from plantc.codegen.compiler import BASE_FLAGS, WARNINGS
 from plantc.codegen.emit import emit
 from plantc.codegen.mathematics import (
     COEFFICIENTS,
+    CONSTANTS,
     ERROR_BOUNDS,
     EXACT,
     LIMITS,
@@ -150,6 +151,20 @@ def pairs(count, seed=1):
     return np.concatenate([y, y * scale]).astype(np.float32), np.concatenate([x, x]).astype(np.float32)
 
 
+def bases_and_exponents(count, precision, seed=6):
+    """Arguments of pow whose result has any magnitude, bases near 1 among them."""
+    random = np.random.default_rng(seed)
+    top = {"float": 88.0, "double": 709.0}[precision]
+    x = np.exp(np.concatenate([random.uniform(-top, top, count // 2), 0.1 * random.standard_normal(count // 2)]))
+    y = random.uniform(-1.06 * top, 1.01 * top, len(x)) / np.log(x)
+    y[::7] = random.uniform(-4, 4, len(y[::7]))
+    return x.astype(DTYPE[precision]), y.astype(DTYPE[precision])
+
+
+def two_arguments(name, count, precision):
+    return pairs(count) if name == "atan2" else bases_and_exponents(2 * count, precision)
+
+
 def doubles_for(name, count, seed=2):
     """Random points, and those where a function is hard."""
     random = np.random.default_rng(seed)
@@ -166,6 +181,10 @@ def doubles_for(name, count, seed=2):
         half = 0.5 + random.uniform(-0.03, 0.03, count // 10)
         return np.concatenate([random.uniform(-1, 1, count // 2), *edges, half, -half, tiny])
     wide = 10.0 ** random.uniform(-300, 300, count // 5)
+    if name == "log":
+        return np.concatenate([wide, tiny, random.uniform(0.5, 2, count // 2), 1 + tiny, 1 - tiny / 2, [5e-324]])
+    if name in ("exp", "sinh", "cosh"):
+        wide = random.uniform(0, 746 if name == "exp" else 711, count // 5)
     return np.concatenate([random.uniform(-3, 3, count // 2), wide, -wide, tiny])
 
 
@@ -174,8 +193,7 @@ def doubles_for(name, count, seed=2):
 
 def worst_of_float(library, name, stride):
     if name in TWO_ARGUMENTS:
-        y, x = pairs(2_000_000 // stride)
-        arguments = (y, x) if name == "atan2" else (np.abs(x), y)
+        arguments = two_arguments(name, 500_000_000 // stride, "float")
     else:
         arguments = (floats_for(name, stride),)
     with np.errstate(all="ignore"):
@@ -196,8 +214,7 @@ def test_float_is_within_its_bound_on_every_257th(own, name):
 
 def worst_of_double(library, name, count):
     if name in TWO_ARGUMENTS:
-        y, x = pairs(count // 2)
-        arguments = (y, x) if name == "atan2" else (np.abs(x), y)
+        arguments = two_arguments(name, count // 2, "double")
     else:
         arguments = (doubles_for(name, count),)
     return float(errors_of_double(library(name, *arguments), truth_of_double(name, *arguments)).max())
@@ -217,9 +234,10 @@ def test_double_is_within_its_bound_on_many_points(own, name):
 @pytest.mark.parametrize("name", sorted(OWN))
 def test_the_double_oracle_of_the_floats_is_right(name):
     """NumPy's double functions, spot-checked against mpmath at floats: an error of 1 ulp there is 2^-29 ulp of a float."""
-    arguments = [item[::101] for item in pairs(2_000)] if name in TWO_ARGUMENTS else [floats_for(name, 4_000_037)]
-    if name == "pow":
-        arguments = [np.abs(arguments[1]), arguments[0]]
+    if name in TWO_ARGUMENTS:
+        arguments = two_arguments(name, 300, "float")
+    else:
+        arguments = [floats_for(name, 4_000_037)]
     with np.errstate(all="ignore"):
         values = NUMPY[name](*[item.astype(float) for item in arguments])
     usual = [k for k, value in enumerate(values) if np.isfinite(value) and value != 0]
@@ -229,7 +247,8 @@ def test_the_double_oracle_of_the_floats_is_right(name):
 
 
 @pytest.mark.parametrize(
-    ("name", "correction", "position"), [("sin", "sin", 1), ("cos", "cos", 0), ("asin", "asin", 2)]
+    ("name", "correction", "position"),
+    [("sin", "sin", 1), ("cos", "cos", 0), ("asin", "asin", 2), ("exp", "exp", 1), ("log", "log", 0)],
 )
 @pytest.mark.parametrize("precision", PRECISIONS)
 def test_a_wrong_coefficient_is_seen(own, precision, name, correction, position, tmp_path, monkeypatch):
@@ -278,28 +297,74 @@ def test_every_compiler_gives_the_same_bits(own, precision, compiler, tmp_path, 
 @pytest.mark.parametrize("precision", PRECISIONS)
 def test_symmetries_and_ranges(own, precision):
     run = own[precision]
-    for name in ("sin", "tan", "asin", "atan"):
+    for name in ("sin", "tan", "asin", "atan", "tanh", "sinh"):
         x = sample(name, precision)
         up, down = run(name, x), run(name, -x)
         usual = ~np.isnan(up)
         assert np.array_equal(up[usual], -down[usual]), name
         assert np.array_equal(np.signbit(up[usual]), ~np.signbit(down[usual])), name
-    x = sample("cos", precision)
-    assert np.array_equal(run("cos", x), run("cos", -x), equal_nan=True)
-    for name in ("sin", "cos"):
+    for name in ("cos", "cosh"):
+        x = sample(name, precision)
+        assert np.array_equal(run(name, x), run(name, -x), equal_nan=True)
+    for name in ("sin", "cos", "tanh"):
         assert np.nanmax(np.abs(run(name, sample(name, precision)))) <= 1
     angle = run("atan2", *np.random.default_rng(4).permutation(np.tile(sample("atan2", precision), 2)).reshape(2, -1))
     assert np.nanmax(np.abs(angle)) <= DTYPE[precision](np.pi)
 
 
+PIECES = [
+    ("sin", -1.5, 1.5), ("asin", -1, 1), ("atan", -50, 50), ("tan", -1.5, 1.5), ("exp", -80, 80), ("log", 0.01, 90),
+    ("tanh", -3, 3), ("sinh", -9, 9), ("cosh", 0.1, 9),
+]  # fmt: skip
+
+
 @pytest.mark.parametrize("precision", PRECISIONS)
-@pytest.mark.parametrize(
-    ("name", "low", "high"), [("sin", -1.5, 1.5), ("asin", -1, 1), ("atan", -50, 50), ("tan", -1.5, 1.5)]
-)
+@pytest.mark.parametrize(("name", "low", "high"), PIECES)
 def test_monotone_pieces_rise(own, precision, name, low, high):
     """Over steps of many units in the last place, so that rounding cannot turn them."""
     values = own[precision](name, np.linspace(low, high, 4001)).astype(float)
     assert np.all(np.diff(values) > 0)
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_functions_undo_each_other(own, precision):
+    run, unit = own[precision], float(np.finfo(DTYPE[precision]).eps)
+    x = np.exp(np.random.default_rng(7).uniform(-80, 80, 2000)).astype(DTYPE[precision])
+    logarithm = run("log", x)
+    assert np.all(np.abs(run("exp", logarithm) / x - 1) < (2 + np.abs(logarithm)) * unit)
+    angle = np.linspace(-1.5, 1.5, 501).astype(DTYPE[precision])
+    assert np.abs(run("atan2", run("sin", angle), run("cos", angle)) - angle).max() < 4 * unit
+    assert np.abs(run("sin", angle) ** 2 + run("cos", angle) ** 2 - 1).max() < 4 * unit
+    assert np.array_equal(run("pow", x, np.ones_like(x)), x)
+    small = np.arange(1, 200)
+    assert np.abs(run("pow", small, np.full(199, 2)) / small**2 - 1).max() < 2 * unit
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_pow_treats_special_values_as_c99_says(own, precision):
+    special = np.array([0, 1, 2, 0.5, 3, 2.5, np.inf, 1e30, 2.0**24 - 1], DTYPE[precision])
+    special = np.concatenate([special, -special, [np.nan]]).astype(DTYPE[precision])
+    x, y = (item.ravel() for item in np.meshgrid(special, special))
+    with np.errstate(all="ignore"):
+        got, true = own[precision]("pow", x, y), np.power(x, y)
+    assert np.array_equal(np.isnan(got), np.isnan(true))
+    usual = ~np.isnan(true)
+    assert np.array_equal(np.signbit(got[usual]), np.signbit(true[usual]))
+    finite = usual & np.isfinite(true)
+    assert np.array_equal(got[usual & ~finite], true[usual & ~finite])
+    assert np.all(np.abs(got[finite] - true[finite]) <= 2 * np.spacing(np.abs(true[finite])))
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_ends_of_the_exponentials(own, precision):
+    run = own[precision]
+    x = np.array([0.0, -0.0, np.inf, -np.inf, np.nan, 1e4, -1e4])
+    for name in ("exp", "tanh", "sinh", "cosh"):
+        with np.errstate(all="ignore"):
+            true = NUMPY[name](x)
+        assert np.array_equal(run(name, x), true.astype(DTYPE[precision]), equal_nan=True), name
+    assert np.array_equal(run("log", [0.0, -0.0, 1.0, np.inf]), [-np.inf, -np.inf, 0.0, np.inf])
+    assert np.isnan(run("log", [-1.0, -np.inf, np.nan, -1e-45])).all()
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)
@@ -338,6 +403,8 @@ def test_the_coefficients_are_those_of_the_script(checkout, monkeypatch):
             terms = len(COEFFICIENTS[precision][name])
             weight = float(script.CORRECTIONS[name].high) ** (2 if name in ("cos", "exp") else 1)
             assert script.truncation(name, terms) * weight < 2.0 ** -(bits + 3), (precision, name)
+
+    assert script.constants() == CONSTANTS
 
 
 def test_every_function_says_its_bound():
