@@ -26,6 +26,7 @@ from .fuzz import fuzz_source
 from .layout import default_params
 from .on_target import chosen_targets, measure_targets
 from .options import Options
+from .report import report_html
 from .style import Precision
 from .traceability import trace_text
 from .vectors import choose_vectors, vectors_source, wrapped
@@ -244,6 +245,8 @@ def export(
             raise ExportError(failure_text(block, check), check)
     evidence = {**_evidence(block, chosen, check, compiled), **facts}
     files["evidence.json"] = json.dumps(evidence, indent=2) + "\n"
+    report("report", 0, 1)
+    files["report.html"] = report_html(block, json.loads(files["manifest.json"]), evidence, check.calls)
     write_folder(folder, files)
     return Export(block, chosen, folder, files, check, evidence)
 

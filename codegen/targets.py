@@ -8,7 +8,7 @@ import os
 import shutil
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -23,21 +23,8 @@ STACK = 32 * 1024
 MACHINE_MEMORY = 4 * 1024 * 1024
 """Bytes of program memory and of data memory that the emulated machines have, whatever a target is said to have."""
 
-SHIM = {
-    "math.h": '#define NAN (__builtin_nanf(""))\n#define INFINITY (__builtin_inff())\n'
-    "double fabs(double x);\nfloat fabsf(float x);\ndouble floor(double x);\nfloat floorf(float x);\n"
-    + "".join(
-        f"double {name}(double x);\nfloat {name}f(float x);\n"
-        for name in ("sqrt", "ceil", "sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "tanh", "sinh", "cosh")
-    )
-    + "".join(
-        f"double {name}(double x, double y);\nfloat {name}f(float x, float y);\n"
-        for name in ("pow", "atan2", "fmin", "fmax", "fmod", "hypot", "copysign")
-    ),
-    "string.h": "#include <stddef.h>\nvoid *memcpy(void *to, const void *from, size_t size);\n"
-    "void *memset(void *to, int value, size_t size);\n",
-}
-"""Headers of the C library for a compiler that comes without one (the zig wheel)."""
+SHIM = {"math.h": "freestanding_math.h", "string.h": "freestanding_string.h"}
+"""Headers of the C library, as templates, for a compiler that comes without one (the zig wheel)."""
 
 
 class TargetError(CompilerError):
@@ -192,9 +179,9 @@ class Toolchain:
 
     @property
     def flags(self) -> tuple[str, ...]:
-        """Flags of every compilation for the target, but for contraction."""
+        """Flags of every compilation for the target, but for contraction. Debug information changes no code."""
         if self.kind == "host":
-            return BASE_FLAGS
+            return (*BASE_FLAGS, "-g")
         if self.kind == "zig":
             unwanted = (
                 "-fno-asynchronous-unwind-tables",
@@ -203,10 +190,11 @@ class Toolchain:
                 "-fno-stack-protector",
             )
             # freestanding turns builtins off, and with them the FPU's own instructions for fabs and sqrt
-            return (*BASE_FLAGS, *self.target.zig_flags, "-fbuiltin", "-fno-short-enums", *unwanted, "-Ishim")
+            return (*BASE_FLAGS, "-g", *self.target.zig_flags, "-fbuiltin", "-fno-short-enums", *unwanted, "-Ishim")
         # enums as wide as on the host, so that the structs are laid out alike
         return (
             *BASE_FLAGS,
+            "-g",
             *self.target.flags,
             "-fno-short-enums",
             "-fno-math-errno",
@@ -224,7 +212,8 @@ class Toolchain:
 
     def key(self) -> str:
         """Return what two toolchains that build alike have in common."""
-        return "\0".join([*self.compiler.command, self.compiler.version(), *self.flags])
+        own = [templates().get_template(name).render() for name in (*SHIM.values(), "freestanding_main.c")]
+        return "\0".join([*self.compiler.command, self.compiler.version(), *self.flags, *own])
 
     def run(self, arguments: list[str], folder: Path) -> None:
         """Call the compiler.
@@ -252,8 +241,8 @@ class Toolchain:
         """Write sources into a folder and compile each ``.c`` that is library code into an object of its name."""
         if self.kind == "zig":
             (folder / "shim").mkdir(exist_ok=True)
-            for file, text in SHIM.items():
-                (folder / "shim" / file).write_text(text)
+            for file, template in SHIM.items():
+                (folder / "shim" / file).write_text(templates().get_template(template).render())
         for file, text in sources.items():
             (folder / file).write_text(text)
             if file.endswith(".c") and not file.endswith("_main.c"):
@@ -359,6 +348,20 @@ def find_emulator(target: Target) -> str:
     return path
 
 
+def installed_targets() -> tuple[str, ...]:
+    """Return the names of the targets whose tools are all installed, the host first."""
+    names = []
+    for target in TARGETS.values():
+        try:
+            find_toolchain(target)
+            if not target.is_host:
+                find_emulator(target)
+        except CompilerError:
+            continue
+        names.append(target.name)
+    return tuple(names)
+
+
 # ---------------------------------------------------------------------------------------------------------------------
 # Sizes
 
@@ -396,26 +399,30 @@ class Sizes:
             return cls(text, data, bss)
 
 
-def linked_sizes(toolchain: Toolchain, text: CText, entries: list[str], *, contract: bool = False) -> Sizes:
-    """Return the sizes of a library with all it calls (the compiler's and the C library's functions).
+def linked_library(
+    toolchain: Toolchain, text: CText, entries: Sequence[str], folder: Path, *, contract: bool = False
+) -> Path:
+    """Return a library linked for a target with all it calls (the compiler's and the C library's functions), and no more.
 
-    Raises
-    ------
-    TargetError
-        If that does not fit the target.
+    Parameters
+    ----------
+    toolchain : Toolchain
+        Not the host's.
+    text : CText
+        The library.
+    entries : sequence of str
+        What a user may call.
+    folder : Path
+        Where it is built.
+    contract : bool
+        Whether a product and a sum may be fused.
     """
-    with tempfile.TemporaryDirectory(prefix="plantc-") as name:
-        folder = Path(name)
-        toolchain.library_object(text, folder, contract=contract)
-        table = "".join(
-            f"extern int {text.name}_{entry}(void);\nint (*const keep_{entry})(void) __attribute__((section("
-            f'".vectors"), used)) = {text.name}_{entry};\n'
-            for entry in entries
-        )
-        (folder / "table_main.c").write_text(table)
-        first = f"{text.name}_{entries[0]}"
-        parts = [f"{text.name}.o", "table_main.c"]
-        built = toolchain.link(parts, "library", folder, flash=MACHINE_MEMORY, ram=MACHINE_MEMORY, entry=first)
-        found = Sizes.of(built)
-    assert found is not None, "targets are ELF"
-    return found
+    toolchain.library_object(text, folder, contract=contract)
+    table = "".join(
+        f"extern int {text.name}_{entry}(void);\nint (*const keep_{entry})(void) __attribute__((section("
+        f'".vectors"), used)) = {text.name}_{entry};\n'
+        for entry in entries
+    )
+    (folder / "table_main.c").write_text(table)
+    parts, first = [f"{text.name}.o", "table_main.c"], f"{text.name}_{entries[0]}"
+    return toolchain.link(parts, "library", folder, flash=MACHINE_MEMORY, ram=MACHINE_MEMORY, entry=first)

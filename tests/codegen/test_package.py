@@ -21,7 +21,7 @@ def test_the_files_are_those_promised(exported):
     names = {path.relative_to(exported.folder).as_posix() for path in exported.folder.rglob("*") if path.is_file()}
     assert names == {
         "src/pendulum_ekf.h", "src/pendulum_ekf.c", "test/test_vectors.c", "examples/example_main.c", "verify/fuzz_main.c",
-        "CMakeLists.txt", "manifest.json", "trace.json", "evidence.json",
+        "CMakeLists.txt", "manifest.json", "trace.json", "evidence.json", "report.html",
     }  # fmt: skip
     for path in exported.folder.rglob("*.c"):
         library = path.name == "pendulum_ekf.c"

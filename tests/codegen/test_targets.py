@@ -15,7 +15,8 @@ from plantc.codegen.targets import (
     Toolchain,
     find_emulator,
     find_toolchain,
-    linked_sizes,
+    installed_targets,
+    linked_library,
     target_named,
 )
 from plantc.examples.pendulum import pendulum_ekf
@@ -59,6 +60,14 @@ def test_a_missing_c_library_is_told_with_its_package(name, tmp_path, needs):
     blind = replace(toolchain.target, flags=(*flags, "-nostdinc", "-isystem", own.stdout.strip()))
     with pytest.raises(TargetError, match=f"no C library for the target {name}; install it: apt install gcc-"):
         Toolchain(blind, toolchain.compiler, "gcc").library_object(emit(pendulum_ekf, "float"), tmp_path)
+
+
+def test_installed_targets_are_those_whose_tools_are_there(monkeypatch, needs):
+    needs("gcc", *COMPILERS.values(), "qemu-system-arm", "qemu-system-riscv32")
+    assert installed_targets() == tuple(TARGETS)
+    which = shutil.which
+    monkeypatch.setattr(shutil, "which", lambda program: None if program == "qemu-system-arm" else which(program))
+    assert installed_targets() == ("host", "rv32")
 
 
 def symbols(path):
@@ -111,8 +120,8 @@ def test_what_a_library_calls_counts_too(tmp_path, needs):
     toolchain = find_toolchain(TARGETS["cortex-m4"], kind="gcc")
     entries = list(quadrotor_kf.entries)
     alone = Sizes.of(toolchain.library_object(emit(quadrotor_kf, "double"), tmp_path))
-    linked = linked_sizes(toolchain, emit(quadrotor_kf, "double"), entries)
+    linked = Sizes.of(linked_library(toolchain, emit(quadrotor_kf, "double"), entries, tmp_path))
     assert linked.text > alone.text + 1000
-    single = linked_sizes(toolchain, emit(quadrotor_kf, "float"), entries)
+    single = Sizes.of(linked_library(toolchain, emit(quadrotor_kf, "float"), entries, tmp_path))
     assert single.text < linked.text
     assert single.data == single.bss == 0
