@@ -19,7 +19,7 @@ from .emulator import Call, TargetView
 from .findings import CheckResult, Findings, Mismatch
 from .layout import flatten, inputs_dtype, memory_dtype, outputs_dtype, params_dtype
 from .options import Options
-from .targets import Sizes, Target, TargetError, find_emulator, find_toolchain, linked_sizes, target_named
+from .targets import Sizes, Target, TargetError, find_emulator, find_toolchain, linked_library, target_named
 from .trace import Trace, TraceCall
 from .views import Answer, NativeView, View
 
@@ -280,9 +280,10 @@ def _target_facts(view: TargetView) -> dict[str, Any]:
     """
     target, block = view.target, view.block
     with tempfile.TemporaryDirectory(prefix="plantc-") as name:
-        own = Sizes.of(view.toolchain.library_object(view.text, Path(name), contract=view.contract))
+        whole = linked_library(view.toolchain, view.text, list(block.entries), Path(name), contract=view.contract)
+        linked, own = Sizes.of(whole), Sizes.of(Path(name) / f"{block.name}.o")
     assert own is not None, "targets are ELF"
-    linked = linked_sizes(view.toolchain, view.text, list(block.entries), contract=view.contract)
+    assert linked is not None, "targets are ELF"
     stack = max(item.stack for item in view.most.values())
     flash = linked.text + linked.data
     ram = linked.data + linked.bss + _instance(view) + stack
