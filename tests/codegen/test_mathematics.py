@@ -557,6 +557,7 @@ def test_the_docs_state_these_bounds(checkout):
         assert f"{limit:.0f}" in page
 
 
+@pytest.mark.slow
 def test_the_choice_is_recorded_and_check_keeps_to_it(plantc, tmp_path):
     model = tmp_path / "model.py"
     model.write_text(
