@@ -23,21 +23,8 @@ STACK = 32 * 1024
 MACHINE_MEMORY = 4 * 1024 * 1024
 """Bytes of program memory and of data memory that the emulated machines have, whatever a target is said to have."""
 
-SHIM = {
-    "math.h": '#define NAN (__builtin_nanf(""))\n#define INFINITY (__builtin_inff())\n'
-    "double fabs(double x);\nfloat fabsf(float x);\ndouble floor(double x);\nfloat floorf(float x);\n"
-    + "".join(
-        f"double {name}(double x);\nfloat {name}f(float x);\n"
-        for name in ("sqrt", "ceil", "sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "tanh", "sinh", "cosh")
-    )
-    + "".join(
-        f"double {name}(double x, double y);\nfloat {name}f(float x, float y);\n"
-        for name in ("pow", "atan2", "fmin", "fmax", "fmod", "hypot", "copysign")
-    ),
-    "string.h": "#include <stddef.h>\nvoid *memcpy(void *to, const void *from, size_t size);\n"
-    "void *memset(void *to, int value, size_t size);\n",
-}
-"""Headers of the C library for a compiler that comes without one (the zig wheel)."""
+SHIM = {"math.h": "freestanding_math.h", "string.h": "freestanding_string.h"}
+"""Headers of the C library, as templates, for a compiler that comes without one (the zig wheel)."""
 
 
 class TargetError(CompilerError):
@@ -224,7 +211,8 @@ class Toolchain:
 
     def key(self) -> str:
         """Return what two toolchains that build alike have in common."""
-        return "\0".join([*self.compiler.command, self.compiler.version(), *self.flags])
+        own = [templates().get_template(name).render() for name in (*SHIM.values(), "freestanding_main.c")]
+        return "\0".join([*self.compiler.command, self.compiler.version(), *self.flags, *own])
 
     def run(self, arguments: list[str], folder: Path) -> None:
         """Call the compiler.
@@ -252,8 +240,8 @@ class Toolchain:
         """Write sources into a folder and compile each ``.c`` that is library code into an object of its name."""
         if self.kind == "zig":
             (folder / "shim").mkdir(exist_ok=True)
-            for file, text in SHIM.items():
-                (folder / "shim" / file).write_text(text)
+            for file, template in SHIM.items():
+                (folder / "shim" / file).write_text(templates().get_template(template).render())
         for file, text in sources.items():
             (folder / file).write_text(text)
             if file.endswith(".c") and not file.endswith("_main.c"):
@@ -357,6 +345,20 @@ def find_emulator(target: Target) -> str:
             f"apt install {target.emulator_package}"
         )
     return path
+
+
+def installed_targets() -> tuple[str, ...]:
+    """Return the names of the targets whose tools are all installed, the host first."""
+    names = []
+    for target in TARGETS.values():
+        try:
+            find_toolchain(target)
+            if not target.is_host:
+                find_emulator(target)
+        except CompilerError:
+            continue
+        names.append(target.name)
+    return tuple(names)
 
 
 # ---------------------------------------------------------------------------------------------------------------------

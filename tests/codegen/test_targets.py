@@ -15,6 +15,7 @@ from plantc.codegen.targets import (
     Toolchain,
     find_emulator,
     find_toolchain,
+    installed_targets,
     linked_sizes,
     target_named,
 )
@@ -59,6 +60,14 @@ def test_a_missing_c_library_is_told_with_its_package(name, tmp_path, needs):
     blind = replace(toolchain.target, flags=(*flags, "-nostdinc", "-isystem", own.stdout.strip()))
     with pytest.raises(TargetError, match=f"no C library for the target {name}; install it: apt install gcc-"):
         Toolchain(blind, toolchain.compiler, "gcc").library_object(emit(pendulum_ekf, "float"), tmp_path)
+
+
+def test_installed_targets_are_those_whose_tools_are_there(monkeypatch, needs):
+    needs("gcc", *COMPILERS.values(), "qemu-system-arm", "qemu-system-riscv32")
+    assert installed_targets() == tuple(TARGETS)
+    which = shutil.which
+    monkeypatch.setattr(shutil, "which", lambda program: None if program == "qemu-system-arm" else which(program))
+    assert installed_targets() == ("host", "rv32")
 
 
 def symbols(path):
