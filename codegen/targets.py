@@ -8,7 +8,7 @@ import os
 import shutil
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -179,9 +179,9 @@ class Toolchain:
 
     @property
     def flags(self) -> tuple[str, ...]:
-        """Flags of every compilation for the target, but for contraction."""
+        """Flags of every compilation for the target, but for contraction. Debug information changes no code."""
         if self.kind == "host":
-            return BASE_FLAGS
+            return (*BASE_FLAGS, "-g")
         if self.kind == "zig":
             unwanted = (
                 "-fno-asynchronous-unwind-tables",
@@ -190,10 +190,11 @@ class Toolchain:
                 "-fno-stack-protector",
             )
             # freestanding turns builtins off, and with them the FPU's own instructions for fabs and sqrt
-            return (*BASE_FLAGS, *self.target.zig_flags, "-fbuiltin", "-fno-short-enums", *unwanted, "-Ishim")
+            return (*BASE_FLAGS, "-g", *self.target.zig_flags, "-fbuiltin", "-fno-short-enums", *unwanted, "-Ishim")
         # enums as wide as on the host, so that the structs are laid out alike
         return (
             *BASE_FLAGS,
+            "-g",
             *self.target.flags,
             "-fno-short-enums",
             "-fno-math-errno",
@@ -398,26 +399,30 @@ class Sizes:
             return cls(text, data, bss)
 
 
-def linked_sizes(toolchain: Toolchain, text: CText, entries: list[str], *, contract: bool = False) -> Sizes:
-    """Return the sizes of a library with all it calls (the compiler's and the C library's functions).
+def linked_library(
+    toolchain: Toolchain, text: CText, entries: Sequence[str], folder: Path, *, contract: bool = False
+) -> Path:
+    """Return a library linked for a target with all it calls (the compiler's and the C library's functions), and no more.
 
-    Raises
-    ------
-    TargetError
-        If that does not fit the target.
+    Parameters
+    ----------
+    toolchain : Toolchain
+        Not the host's.
+    text : CText
+        The library.
+    entries : sequence of str
+        What a user may call.
+    folder : Path
+        Where it is built.
+    contract : bool
+        Whether a product and a sum may be fused.
     """
-    with tempfile.TemporaryDirectory(prefix="plantc-") as name:
-        folder = Path(name)
-        toolchain.library_object(text, folder, contract=contract)
-        table = "".join(
-            f"extern int {text.name}_{entry}(void);\nint (*const keep_{entry})(void) __attribute__((section("
-            f'".vectors"), used)) = {text.name}_{entry};\n'
-            for entry in entries
-        )
-        (folder / "table_main.c").write_text(table)
-        first = f"{text.name}_{entries[0]}"
-        parts = [f"{text.name}.o", "table_main.c"]
-        built = toolchain.link(parts, "library", folder, flash=MACHINE_MEMORY, ram=MACHINE_MEMORY, entry=first)
-        found = Sizes.of(built)
-    assert found is not None, "targets are ELF"
-    return found
+    toolchain.library_object(text, folder, contract=contract)
+    table = "".join(
+        f"extern int {text.name}_{entry}(void);\nint (*const keep_{entry})(void) __attribute__((section("
+        f'".vectors"), used)) = {text.name}_{entry};\n'
+        for entry in entries
+    )
+    (folder / "table_main.c").write_text(table)
+    parts, first = [f"{text.name}.o", "table_main.c"], f"{text.name}_{entries[0]}"
+    return toolchain.link(parts, "library", folder, flash=MACHINE_MEMORY, ram=MACHINE_MEMORY, entry=first)

@@ -68,24 +68,35 @@ class View:
     def __init__(self, block: Block, precision: str = "double"):
         self.block = block
         self.precision = Precision(precision)
+        self._blank: dict[str, Record] = {}
 
     # -- records ------------------------------------------------------------------------------------------------------
 
     def params(self, **values: Any) -> Record:
         """Return a parameter record: defaults, with the given fields replaced."""
-        return fill(default_params(self.block, self.precision), _dotted(values))
+        if "params" not in self._blank:
+            self._blank["params"] = default_params(self.block, self.precision)
+        return fill(self._blank["params"].copy(), _dotted(values))
 
     def memory(self, **values: Any) -> Record:
         """Return a memory record of zeros with the given fields set."""
-        return fill(np.zeros((), dtype=memory_dtype(self.block, self.precision)), _dotted(values))
+        if "memory" not in self._blank:
+            self._blank["memory"] = np.zeros((), dtype=memory_dtype(self.block, self.precision))
+        return fill(self._blank["memory"].copy(), _dotted(values))
 
     def inputs(self, entry: str, values: Mapping[str, Any]) -> Record:
         """Return an input record of zeros with the given fields set."""
-        return fill(np.zeros((), dtype=inputs_dtype(self.block.entries[entry], self.precision)), values)
+        key = f"{entry} in"
+        if key not in self._blank:
+            self._blank[key] = np.zeros((), dtype=inputs_dtype(self.block.entries[entry], self.precision))
+        return fill(self._blank[key].copy(), values)
 
     def outputs(self, entry: str) -> Record:
         """Return an output record of zeros."""
-        return np.zeros((), dtype=outputs_dtype(self.block.entries[entry], self.precision))
+        key = f"{entry} out"
+        if key not in self._blank:
+            self._blank[key] = np.zeros((), dtype=outputs_dtype(self.block.entries[entry], self.precision))
+        return self._blank[key].copy()
 
     # -- running ------------------------------------------------------------------------------------------------------
 

@@ -131,6 +131,17 @@ def _common(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
+_target = click.option(
+    "--target",
+    "targets",
+    type=click.Choice(list(TARGETS)),
+    multiple=True,
+    default=["host"],
+    show_default=True,
+    help="Machine the C is run on as well; may be given several times.",
+)
+
+
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(generator_version(), prog_name="plantc")
 def main() -> None:
@@ -225,15 +236,7 @@ def _derived_text(answer: dict[str, Any]) -> list[str]:
     "--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace."
 )
 @click.option("--redesign", is_flag=True, help="Design the numbers of design.json anew.")
-@click.option(
-    "--target",
-    "targets",
-    type=click.Choice(list(TARGETS)),
-    multiple=True,
-    default=["host"],
-    show_default=True,
-    help="Machine the C is measured on; may be given several times.",
-)
+@_target
 @click.option(
     "--contract",
     type=click.Choice(["on", "off"]),
@@ -387,8 +390,9 @@ def checks_text(results: list[CheckResult]) -> list[str]:
 @click.option(
     "--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace."
 )
+@_target
 @_common
-def check_command(folder: Path, model: str, steps: int, as_json: bool, debug: bool) -> None:
+def check_command(folder: Path, model: str, steps: int, targets: tuple[str, ...], as_json: bool, debug: bool) -> None:
     """Is what lies in FOLDER still what its model gives, and does it still pass?"""
     session = Session(as_json, debug)
 
@@ -407,6 +411,7 @@ def check_command(folder: Path, model: str, steps: int, as_json: bool, debug: bo
             found = check_folder(
                 folder,
                 block,
+                targets=targets,
                 steps=steps,
                 progress=lambda what, done, total: display.update(
                     task, description=f"{block.name}: {what}", completed=done, total=total

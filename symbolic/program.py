@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 import casadi as ca
@@ -682,13 +683,25 @@ def packed_size(size: int) -> int:
     return size * (size + 1) // 2
 
 
+@lru_cache
+def _upper(size: int) -> tuple[Array, Array]:
+    """Return rows and columns of an upper triangle, in the order of its packing."""
+    return np.triu_indices(size)
+
+
+@lru_cache
+def _places(size: int) -> Array:
+    """Return, for each element of a symmetric matrix, where it stands in the packed triangle."""
+    table = np.zeros((size, size), dtype=int)
+    table[_upper(size)] = np.arange(packed_size(size))
+    return table + np.triu(table, 1).T
+
+
 def unpack_symmetric(packed: Array, size: int) -> Array:
     """Return the full symmetric matrix of a packed upper triangle."""
-    full = np.zeros((size, size), dtype=packed.dtype)
-    full[np.triu_indices(size)] = packed
-    return full + np.triu(full, 1).T
+    return packed[_places(size)]
 
 
 def pack_symmetric(full: Array) -> Array:
     """Return the upper triangle of a matrix, packed by rows."""
-    return np.asarray(full)[np.triu_indices(len(full))]
+    return np.asarray(full)[_upper(len(full))]

@@ -109,3 +109,22 @@ def test_a_missing_tool_is_a_sentence_with_its_package(export, needs, monkeypatc
     monkeypatch.setattr(targets.importlib.util, "find_spec", lambda module: None)
     refused(export("--target", name), f"apt install {package}")
     assert not (tmp_path / "generated_c").exists()
+
+
+def test_check_runs_what_lies_there_on_a_target(export, needs, tmp_path, plantc):
+    needs("arm-none-eabi-gcc", "qemu-system-arm")
+    assert export("--precision", "float").status == 0
+    folder = tmp_path / "generated_c/low_pass"
+    arguments = ("check", folder, "--model", "model.py", "--steps", 20, "--target", "cortex-m4")
+    good = plantc(*arguments, "--json")
+    assert good.status == 0, good.err
+    names = [item["name"] for item in json.loads(good.out)["checks"]]
+    assert names[-2:] == ["cortex-m4 = native", "cortex-m4 = native, free run"]
+    source = folder / "src/low_pass.c"
+    whole = source.read_text()
+    spoilt = whole.replace(" smooth_0;\n", " smooth_0\n#ifdef __arm__\n + 0.5f\n#endif\n;\n", 1)
+    assert spoilt != whole
+    source.write_text(spoilt)
+    bad = plantc(*arguments)
+    assert bad.status == 1
+    assert "cortex-m4 gives" in bad.err
