@@ -322,7 +322,33 @@ def evidence_text(item: Export, seconds: float) -> list[str]:
         f"{name} {count}" for name, count in sorted(item.check.statuses.items(), key=lambda row: -row[1])
     )
     lines.append(f"  statuses reached: {reached}")
+    lines += coverage_text(evidence.get("coverage", ""))
+    lines += operations_text(json.loads(item.files["manifest.json"])["entries"])
     return [*lines, *targets_text(evidence.get("targets", {}))]
+
+
+def coverage_text(coverage: Any) -> list[str]:
+    """Return a line on what the shipped vectors reach."""
+    if not isinstance(coverage, dict):
+        return [f"  coverage: {coverage}"] if coverage else []
+    ran, taken = coverage["statements"], coverage["branches"]
+    return [
+        f"  coverage: the shipped vectors run {ran['reached']} of {ran['all']} statements; with {coverage['corpus_calls']} "
+        f"more calls {taken['reached']} of {taken['all']} branches are taken (the rest with reasons in report.html)"
+    ]
+
+
+def operations_text(entries: dict[str, Any]) -> list[str]:
+    """Return the operations by kind of each entry that has any."""
+    words = ("addition", "multiplication", "division", "negation", "selection")
+    lines = []
+    for name, entry in entries.items():
+        counted = entry["operations"]
+        parts = [f"{counted[word]} {word}{'' if counted[word] == 1 else 's'}" for word in words if counted.get(word)]
+        parts += [f"{count} {word}" for word, count in counted.items() if word not in words]
+        if parts:
+            lines.append(f"  operations of {name}: {', '.join(parts)}")
+    return lines
 
 
 def targets_text(targets: dict[str, Any]) -> list[str]:
