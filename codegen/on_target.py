@@ -19,7 +19,7 @@ from .emulator import Call, TargetView
 from .findings import CheckResult, Findings, Mismatch
 from .layout import flatten, inputs_dtype, memory_dtype, outputs_dtype, params_dtype
 from .options import Options
-from .targets import Sizes, Target, TargetError, find_emulator, find_toolchain, linked_sizes, target_named
+from .targets import Sizes, Target, TargetError, find_emulator, find_toolchain, linked_library, target_named
 from .trace import Trace, TraceCall
 from .views import Answer, NativeView, View
 
@@ -113,18 +113,19 @@ def run_on_target(view: TargetView, native: View, check: CrossCheck, ours: Trace
         The native view's free run.
     """
     name, block = view.target.name, view.block
-    exact = agrees_bit_for_bit(view.text, view.contract)
     probes = [probe for probe in check.calls if probe.answer is not None]
     answers = view.calls([Call(probe.entry, probe.inputs, probe.memory, probe.params) for probe in probes])
     label = f"{name} = native"
-    if exact:
-        lockstep = _equal_answers(label, probes, answers)
-    else:
+    theirs = view.run(ours)
+    difference = first_difference(ours, theirs, "native", name)
+    exact = agrees_bit_for_bit(view.text, view.contract)
+    lockstep = _equal_answers(label, probes, answers)
+    if _may_misround(view) and not (lockstep.passed and difference is None):
+        exact = False
+    if not exact:
         limit = DOUBLE_BOUND if view.precision.name == "double" else block.float_bound
         lockstep = compare_answers(block, view.precision.name, native, label, probes, answers, limit)
         lockstep.note = lockstep.note or "within a tolerance: " + _why_not_exact(view)
-    theirs = view.run(ours)
-    difference = first_difference(ours, theirs, "native", name)
     free = CheckResult(f"{name} = native, free run", not exact or difference is None, calls=len(ours))
     if exact:
         free.mismatch = difference
@@ -137,9 +138,20 @@ def run_on_target(view: TargetView, native: View, check: CrossCheck, ours: Trace
     return Findings([lockstep, free], facts)
 
 
+def _may_misround(view: TargetView) -> bool:
+    """Whether the target's own arithmetic is not IEEE 754's.
+
+    On a Cortex-M4F double is software: gcc 12's libgcc rounds 1 - b the wrong way for half of the b between 2^-33 and 2^-32,
+    and the zig wheel's division is not rounded to nearest where its result is subnormal.
+    """
+    return view.precision.name == "double" and view.target.name == "cortex-m4"
+
+
 def _why_not_exact(view: TargetView) -> str:
     if view.contract:
         return "products and sums may be fused"
+    if agrees_bit_for_bit(view.text, view.contract):
+        return "double is software on this target, and does not always round as IEEE 754 says"
     return "functions of two C libraries differ in their last bits"
 
 
@@ -268,9 +280,10 @@ def _target_facts(view: TargetView) -> dict[str, Any]:
     """
     target, block = view.target, view.block
     with tempfile.TemporaryDirectory(prefix="plantc-") as name:
-        own = Sizes.of(view.toolchain.library_object(view.text, Path(name), contract=view.contract))
+        whole = linked_library(view.toolchain, view.text, list(block.entries), Path(name), contract=view.contract)
+        linked, own = Sizes.of(whole), Sizes.of(Path(name) / f"{block.name}.o")
     assert own is not None, "targets are ELF"
-    linked = linked_sizes(view.toolchain, view.text, list(block.entries), contract=view.contract)
+    assert linked is not None, "targets are ELF"
     stack = max(item.stack for item in view.most.values())
     flash = linked.text + linked.data
     ram = linked.data + linked.bss + _instance(view) + stack

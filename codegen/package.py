@@ -292,27 +292,54 @@ class FolderCheck:
 
 
 def check_folder(
-    folder: Path, block: Block, *, steps: int = 100, progress: Callable[[str, int, int], None] | None = None
+    folder: Path,
+    block: Block,
+    *,
+    targets: tuple[str, ...] = ("host",),
+    steps: int = 100,
+    progress: Callable[[str, int, int], None] | None = None,
 ) -> FolderCheck:
-    """Compare a folder with what its model gives now, and run the checks on the C that lies there."""
+    """Compare a folder with what its model gives now, and run the checks on the C that lies there.
+
+    Parameters
+    ----------
+    folder : Path
+        What `export` wrote.
+    block : Block
+        What it was written from.
+    targets : tuple of str
+        Machines on which the C is run as well.
+    steps : int
+        Length of the nominal trace.
+    progress : callable, optional
+        Called with (what is being done, done, in all).
+
+    Raises
+    ------
+    CompilerError
+        If there is no C compiler, or a target's tools are missing.
+    """
     report = progress or (lambda what, done, total: None)
     manifest = read_manifest(folder)
     precision = manifest["precision"]
-    options = Options(
-        Precision(precision), contract=manifest.get("contract") == "on", mathematics=manifest.get("mathematics", "own")
-    )
+    contract, mathematics = manifest.get("contract") == "on", manifest.get("mathematics", "own")
+    options = Options(Precision(precision), targets, contract, mathematics)
+    chosen_targets(options)
     name = block.name
     present = {file: (folder / file).read_text() for file in manifest["files"] if (folder / file).is_file()}
     missing = [file for file in manifest["files"] if file not in present]
-    native = None
+    native = NativeView(block, precision, contract=contract, mathematics=mathematics)
     header, source = present.get(f"src/{name}.h"), present.get(f"src/{name}.c")
     if header is not None and source is not None and manifest["model"] == block.model_hash():
         lying = CText(name, Precision(precision), header, source, {})
-        native = NativeView(block, precision, text=lying, contract=options.contract)
+        native = NativeView(block, precision, text=lying, contract=contract)
     views = make_views(block, precision, native)
     check = cross_check(
         block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)
     )
+    if set(targets) - {"host"}:
+        report("targets", 0, 1)
+        check.results += measure_targets(block, options, native.text, check).checks
     expected = build_files(block, options)
     changed = [file for file, text in expected.items() if file in present and present[file] != text]
     stored = folder / "manifest.json"

@@ -7,6 +7,7 @@ counts. `coverage` then measures whether it holds for the C.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,13 @@ from .crosscheck import Probe
 from .layout import fill, flatten
 from .views import Answer, Record, View
 
+MOST_TRIED = 4000
+"""Crafted calls that are tried, at most: what cannot be reached is looked for in vain."""
+
 Feature = tuple[Any, ...]
+
+CLOSELY = "looked at closely"
+"""What `HoldVariances` does in each entry that has it, by a call of its own."""
 
 HELD = ("above the ceiling", "above the ceiling, not the first", "above the ceiling, not the last", "below the floor")
 """What `HoldVariances` may have to do; the C does it in one function, whichever entry calls it."""
@@ -30,7 +37,7 @@ def features(entry: str, status: Status, visits: Sequence[Visit]) -> frozenset[F
 
 
 def _feature(visit: Visit) -> Feature:
-    if isinstance(visit.statement, HoldVariances) and visit.outcome:
+    if isinstance(visit.statement, HoldVariances) and visit.outcome not in ("", CLOSELY):
         return ("held", visit.entry.rpartition(".")[0], visit.outcome)
     return ("ran", visit.entry, visit.trail, visit.outcome)
 
@@ -52,6 +59,7 @@ def reachable(block: Block) -> frozenset[Feature]:
             if isinstance(statement, Refuse) and statement.unless != AllOf(()):
                 wanted.add(("ran", label, trail, statement.status.name))
             elif isinstance(statement, HoldVariances):
+                wanted.add(("ran", label, trail, CLOSELY))
                 outcomes = [HELD[0], HELD[3], Status.NOT_POSITIVE.name]
                 if statement.size > 1:  # one variance alone has nothing beside it
                     outcomes += [HELD[1], HELD[2], Status.OVERFLOW.name]
@@ -108,7 +116,7 @@ def added(
     """Return, of calls in their order, each that reaches something that is still missing."""
     answer: list[Probe] = []
     left = set(missing)
-    for probe in probes:
+    for probe in islice(probes, MOST_TRIED):
         if not left:
             break
         tried = run(probe)
@@ -145,6 +153,10 @@ def crafted(block: Block, view: View, probes: Sequence[Probe], missing: frozense
         limited, late = fill(params.copy(), counting), fill(memory.copy(), counted)
         gates = {item.name: np.full(item.size, 1e-9) for item in block.param_signals_flat() if is_off(item)}
         gated = fill(params.copy(), gates)
+        quiet = {
+            item.name: np.zeros(item.size) for item in block.param_signals_flat() if is_real(item) and item.low[0] == 0
+        }
+        sure = {item.name: np.zeros(item.size) for item in block.memory_signals_flat() if is_packed(item)}
 
         def probe(memory: Record, inputs: Record, params: Record, name: str = name) -> Probe:
             return Probe("crafted", 0, name, memory, inputs, params)
@@ -153,11 +165,19 @@ def crafted(block: Block, view: View, probes: Sequence[Probe], missing: frozense
         yield probe(memory, down, params)
         yield probe(late, up, limited)
         yield probe(memory, up, gated)
+        yield probe(fill(memory.copy(), sure), up, fill(params.copy(), quiet))
         alone = [fill(down.copy(), {signal.name: 1}) for signal in entry.inputs if signal.kind is Kind.FLAG]
         for values in _bad_fields(entry.inputs, flatten(inputs)):
             for given in (up, *alone):
                 yield probe(memory, fill(given.copy(), values), params)
                 yield probe(late, fill(given.copy(), values), limited)
+        for values in _bad_fields(block.param_signals_flat(), flatten(params)):
+            yield probe(memory, up, fill(params.copy(), values))
+            yield probe(late, up, fill(limited.copy(), values))
+        for values in _all_at_an_end(block.memory_signals_flat()):
+            for ends in _ends(entry.inputs):
+                yield probe(fill(memory.copy(), values), fill(up.copy(), ends), params)
+                yield probe(fill(memory.copy(), values), fill(up.copy(), ends), fill(params.copy(), quiet))
         for values in _far_and_certain(block.memory_signals_flat()):
             yield probe(fill(memory.copy(), values), up, params)
         for values in _bad_fields(block.memory_signals_flat(), flatten(memory)):
@@ -199,6 +219,18 @@ def _far_and_certain(signals: Sequence[Signal]) -> Iterator[dict[str, Any]]:
             if signal.kind is Kind.REAL and signal not in packed
         }
         yield values | {signal.name: np.zeros(signal.size) for signal in packed}
+
+
+def _all_at_an_end(signals: Sequence[Signal]) -> Iterator[dict[str, Any]]:
+    """Yield a memory whose fields are all at the upper ends of their ranges, then the lower; matrices stay."""
+    real = [signal for signal in signals if is_real(signal) and not is_packed(signal)]
+    yield {signal.name: np.array(signal.high) for signal in real}
+    yield {signal.name: np.array(signal.low) for signal in real}
+
+
+def is_real(signal: Signal) -> bool:
+    """Whether it is a number."""
+    return signal.kind is Kind.REAL
 
 
 def is_off(signal: Signal) -> bool:

@@ -8,7 +8,7 @@ import os
 import shutil
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -18,7 +18,7 @@ from .compiler import BASE_FLAGS, WARNINGS, Compiler, CompilerError, cache_folde
 from .emit import CText, templates
 
 STACK = 32 * 1024
-"""Bytes of stack that the emulated machine paints; a call that uses more is told."""
+"""Bytes of stack that the emulated machine paints at least; a call that uses more is told."""
 
 MACHINE_MEMORY = 4 * 1024 * 1024
 """Bytes of program memory and of data memory that the emulated machines have, whatever a target is said to have."""
@@ -179,9 +179,9 @@ class Toolchain:
 
     @property
     def flags(self) -> tuple[str, ...]:
-        """Flags of every compilation for the target, but for contraction."""
+        """Flags of every compilation for the target, but for contraction. Debug information changes no code."""
         if self.kind == "host":
-            return BASE_FLAGS
+            return (*BASE_FLAGS, "-g")
         if self.kind == "zig":
             unwanted = (
                 "-fno-asynchronous-unwind-tables",
@@ -190,10 +190,11 @@ class Toolchain:
                 "-fno-stack-protector",
             )
             # freestanding turns builtins off, and with them the FPU's own instructions for fabs and sqrt
-            return (*BASE_FLAGS, *self.target.zig_flags, "-fbuiltin", "-fno-short-enums", *unwanted, "-Ishim")
+            return (*BASE_FLAGS, "-g", *self.target.zig_flags, "-fbuiltin", "-fno-short-enums", *unwanted, "-Ishim")
         # enums as wide as on the host, so that the structs are laid out alike
         return (
             *BASE_FLAGS,
+            "-g",
             *self.target.flags,
             "-fno-short-enums",
             "-fno-math-errno",
@@ -252,9 +253,11 @@ class Toolchain:
         self.compile({f"{text.name}.h": text.header, f"{text.name}.c": text.source}, folder, contract=contract)
         return folder / f"{text.name}.o"
 
-    def link(self, objects: list[str], result: str, folder: Path, *, flash: int, ram: int, entry: str) -> Path:
+    def link(
+        self, objects: list[str], result: str, folder: Path, *, flash: int, ram: int, entry: str, stack: int = STACK
+    ) -> Path:
         """Link objects (and ``_main.c`` files) for the target, without anybody's start-up code."""
-        script = templates().get_template(self.target.script).render(flash=flash, ram=ram, entry=entry, stack=STACK)
+        script = templates().get_template(self.target.script).render(flash=flash, ram=ram, entry=entry, stack=stack)
         (folder / f"{result}.ld").write_text(script)
         libraries = ["-lm"] if self.kind == "gcc" else []
         if self.kind == "zig":
@@ -267,7 +270,7 @@ class Toolchain:
         self.run([*options, *objects, *libraries, "-o", f"{result}.elf"], folder)
         return folder / f"{result}.elf"
 
-    def program(self, sources: Mapping[str, str], *, contract: bool = False) -> Path:
+    def program(self, sources: Mapping[str, str], *, contract: bool = False, stack: int = STACK) -> Path:
         """Return a program of some C text for the emulator, linked once for each text and toolchain.
 
         Parameters
@@ -276,9 +279,11 @@ class Toolchain:
             File name -> text. Library code, and files ending in ``_main.c``, which get no contraction.
         contract : bool
             Whether a product and a sum may be fused in the library.
+        stack : int
+            Bytes of stack to paint.
         """
         digest = hashlib.sha256(f"{self.key()}\0{self.target.name}\0{contract}\0".encode())
-        script = templates().get_template(self.target.script).render(flash=0, ram=0, entry="reset", stack=STACK)
+        script = templates().get_template(self.target.script).render(flash=0, ram=0, entry="reset", stack=stack)
         for name in sorted(sources):
             digest.update(f"{name}\0{sources[name]}\0".encode())
         digest.update(script.encode())
@@ -290,7 +295,8 @@ class Toolchain:
             self.compile(sources, folder, contract=contract)
             parts = [f"{file.removesuffix('.c')}.o" for file in sources if _is_library(file)]
             parts += [file for file in sources if file.endswith("_main.c")]
-            built = self.link(parts, "program", folder, flash=MACHINE_MEMORY, ram=MACHINE_MEMORY, entry="reset")
+            size = MACHINE_MEMORY
+            built = self.link(parts, "program", folder, flash=size, ram=size, entry="reset", stack=stack)
             partial = kept.with_suffix(f".{os.getpid()}.tmp")
             shutil.copy(built, partial)
             os.replace(partial, kept)
@@ -398,26 +404,30 @@ class Sizes:
             return cls(text, data, bss)
 
 
-def linked_sizes(toolchain: Toolchain, text: CText, entries: list[str], *, contract: bool = False) -> Sizes:
-    """Return the sizes of a library with all it calls (the compiler's and the C library's functions).
+def linked_library(
+    toolchain: Toolchain, text: CText, entries: Sequence[str], folder: Path, *, contract: bool = False
+) -> Path:
+    """Return a library linked for a target with all it calls (the compiler's and the C library's functions), and no more.
 
-    Raises
-    ------
-    TargetError
-        If that does not fit the target.
+    Parameters
+    ----------
+    toolchain : Toolchain
+        Not the host's.
+    text : CText
+        The library.
+    entries : sequence of str
+        What a user may call.
+    folder : Path
+        Where it is built.
+    contract : bool
+        Whether a product and a sum may be fused.
     """
-    with tempfile.TemporaryDirectory(prefix="plantc-") as name:
-        folder = Path(name)
-        toolchain.library_object(text, folder, contract=contract)
-        table = "".join(
-            f"extern int {text.name}_{entry}(void);\nint (*const keep_{entry})(void) __attribute__((section("
-            f'".vectors"), used)) = {text.name}_{entry};\n'
-            for entry in entries
-        )
-        (folder / "table_main.c").write_text(table)
-        first = f"{text.name}_{entries[0]}"
-        parts = [f"{text.name}.o", "table_main.c"]
-        built = toolchain.link(parts, "library", folder, flash=MACHINE_MEMORY, ram=MACHINE_MEMORY, entry=first)
-        found = Sizes.of(built)
-    assert found is not None, "targets are ELF"
-    return found
+    toolchain.library_object(text, folder, contract=contract)
+    table = "".join(
+        f"extern int {text.name}_{entry}(void);\nint (*const keep_{entry})(void) __attribute__((section("
+        f'".vectors"), used)) = {text.name}_{entry};\n'
+        for entry in entries
+    )
+    (folder / "table_main.c").write_text(table)
+    parts, first = [f"{text.name}.o", "table_main.c"], f"{text.name}_{entries[0]}"
+    return toolchain.link(parts, "library", folder, flash=MACHINE_MEMORY, ram=MACHINE_MEMORY, entry=first)

@@ -131,6 +131,17 @@ def _common(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
+_target = click.option(
+    "--target",
+    "targets",
+    type=click.Choice(list(TARGETS)),
+    multiple=True,
+    default=["host"],
+    show_default=True,
+    help="Machine the C is run on as well; may be given several times.",
+)
+
+
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(generator_version(), prog_name="plantc")
 def main() -> None:
@@ -225,15 +236,7 @@ def _derived_text(answer: dict[str, Any]) -> list[str]:
     "--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace."
 )
 @click.option("--redesign", is_flag=True, help="Design the numbers of design.json anew.")
-@click.option(
-    "--target",
-    "targets",
-    type=click.Choice(list(TARGETS)),
-    multiple=True,
-    default=["host"],
-    show_default=True,
-    help="Machine the C is measured on; may be given several times.",
-)
+@_target
 @click.option(
     "--contract",
     type=click.Choice(["on", "off"]),
@@ -319,7 +322,33 @@ def evidence_text(item: Export, seconds: float) -> list[str]:
         f"{name} {count}" for name, count in sorted(item.check.statuses.items(), key=lambda row: -row[1])
     )
     lines.append(f"  statuses reached: {reached}")
+    lines += coverage_text(evidence.get("coverage", ""))
+    lines += operations_text(json.loads(item.files["manifest.json"])["entries"])
     return [*lines, *targets_text(evidence.get("targets", {}))]
+
+
+def coverage_text(coverage: Any) -> list[str]:
+    """Return a line on what the shipped vectors reach."""
+    if not isinstance(coverage, dict):
+        return [f"  coverage: {coverage}"] if coverage else []
+    ran, taken = coverage["statements"], coverage["branches"]
+    return [
+        f"  coverage: the shipped vectors run {ran['reached']} of {ran['all']} statements; with {coverage['corpus_calls']} "
+        f"more calls {taken['reached']} of {taken['all']} branches are taken (the rest with reasons in report.html)"
+    ]
+
+
+def operations_text(entries: dict[str, Any]) -> list[str]:
+    """Return the operations by kind of each entry that has any."""
+    words = ("addition", "multiplication", "division", "negation", "selection")
+    lines = []
+    for name, entry in entries.items():
+        counted = entry["operations"]
+        parts = [f"{counted[word]} {word}{'' if counted[word] == 1 else 's'}" for word in words if counted.get(word)]
+        parts += [f"{count} {word}" for word, count in counted.items() if word not in words]
+        if parts:
+            lines.append(f"  operations of {name}: {', '.join(parts)}")
+    return lines
 
 
 def targets_text(targets: dict[str, Any]) -> list[str]:
@@ -361,8 +390,9 @@ def checks_text(results: list[CheckResult]) -> list[str]:
 @click.option(
     "--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace."
 )
+@_target
 @_common
-def check_command(folder: Path, model: str, steps: int, as_json: bool, debug: bool) -> None:
+def check_command(folder: Path, model: str, steps: int, targets: tuple[str, ...], as_json: bool, debug: bool) -> None:
     """Is what lies in FOLDER still what its model gives, and does it still pass?"""
     session = Session(as_json, debug)
 
@@ -381,6 +411,7 @@ def check_command(folder: Path, model: str, steps: int, as_json: bool, debug: bo
             found = check_folder(
                 folder,
                 block,
+                targets=targets,
                 steps=steps,
                 progress=lambda what, done, total: display.update(
                     task, description=f"{block.name}: {what}", completed=done, total=total

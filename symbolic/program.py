@@ -426,6 +426,10 @@ class HoldVariances:
             frame.near(float(packed[diagonal[i]]), 0.0, natural)
             frame.near(float(packed[diagonal[i]]), low)
             frame.near(float(packed[diagonal[i]]), high)
+        limits = self.limits()
+        certain = float(np.sum(np.abs(packed))) <= min(limits)
+        if not (certain and all(packed[at] >= low for at, low in zip(diagonal, self.floor, strict=True))):
+            frame.visited(self, "looked at closely")  # what a fast test of the sum of magnitudes does not pass
         if not all(packed[item] >= 0 for item in diagonal):
             raise Refused(Status.NOT_POSITIVE)
         with np.errstate(all="ignore"):
@@ -447,7 +451,6 @@ class HoldVariances:
                     packed[diagonal[i]] = low
                     frame.visited(self, "below the floor")
                     frame.raise_to(Status.CLAMPED)
-        limits = self.limits()
         for k, (value, limit) in enumerate(zip(packed, limits, strict=True)):
             if k not in diagonal:  # the diagonal was compared before it was held, and is within its limit since
                 frame.near(abs(float(value)), limit)

@@ -59,3 +59,9 @@ def shape(request):
 def small_shape(request):
     """A small block of each shape in turn."""
     return SHAPES[request.param]
+
+
+@pytest.fixture
+def shape_named():
+    """A function that gives the block of a name."""
+    return {block.name: block for block in SHAPES.values()}.__getitem__

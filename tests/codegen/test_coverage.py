@@ -32,6 +32,7 @@ def test_the_vectors_reach_every_statement_and_the_rest_has_reasons(drafted, nee
         assert "hold_variances" in item["text"]
     assert facts["branches"]["reached"] >= facts["branches"]["all"] - 8
     assert all(item["reason"] for item in facts["unreachable"])
+    assert all(item["reason"] != coverage.ONLY_CORPUS for item in facts["unreachable"])
     executable = set(range(1, len(files["src/pendulum_ekf.c"].split("\n")) + 1))
     assert {item["line"] for item in facts["unreachable"]} <= executable
 
@@ -82,4 +83,18 @@ def test_shapes_pass_the_gate(small_shape, needs):
     found = measure_coverage(small_shape, "double", files, text.provenance, calls)
     assert found.checks[0].passed, found.checks[0].note
     facts = found.facts["coverage"]
+    assert all(item["reason"] != coverage.ONLY_CORPUS for item in facts["unreachable"])
     assert facts["branches"]["reached"] >= 0.95 * facts["branches"]["all"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "precision"), [("quadrotor_ekf", "double"), ("attitude_ekf", "float")])
+def test_the_large_examples_leave_nothing_to_the_corpus(shape_named, needs, name, precision):
+    needs("gcc", "gcov")
+    block = shape_named(name)
+    calls = _rare_calls(block, precision).calls
+    found = measure_coverage(block, precision, build_files(block, precision), emit(block, precision).provenance, calls)
+    assert found.checks[0].passed, found.checks[0].note
+    assert all(item["reason"] != coverage.ONLY_CORPUS for item in found.facts["coverage"]["unreachable"])
+    counted = found.facts["coverage"]["branches"]
+    assert counted["reached"] >= counted["all"] - 16

@@ -2,6 +2,8 @@
 
 import ctypes
 import importlib.util
+import json
+import re
 import shlex
 import subprocess
 import sys
@@ -12,7 +14,7 @@ import numpy as np
 import pytest
 from plantc.codegen import mathematics
 from plantc.codegen.compiler import BASE_FLAGS, WARNINGS
-from plantc.codegen.emit import emit
+from plantc.codegen.emit import emit, templates
 from plantc.codegen.mathematics import (
     COEFFICIENTS,
     CONSTANTS,
@@ -24,6 +26,7 @@ from plantc.codegen.mathematics import (
     mathematics_text,
 )
 from plantc.codegen.style import Precision
+from plantc.codegen.targets import find_toolchain, target_named
 from plantc.examples.pendulum import pendulum_ekf
 
 PRECISIONS = ("float", "double")
@@ -103,14 +106,14 @@ def errors_of_float(got, truth):
 def truth_of_double(name, *arguments):
     """Values with 60 digits."""
     function = getattr(mp, {"pow": "power"}.get(name, name))
-    with mp.workprec(400):
+    with mp.workprec(250):
         return [function(*[mp.mpf(float(item)) for item in row]) for row in zip(*arguments, strict=True)]
 
 
 def errors_of_double(got, truth):
     """Errors in ulp of doubles against mpmath."""
     errors = []
-    with mp.workprec(400):
+    with mp.workprec(250):
         for value, true in zip(got, truth, strict=True):
             if true == 0 or not np.isfinite(value):
                 overflown = np.isinf(value) and abs(true) >= LARGEST["double"] * (1 + mp.mpf(2) ** -54)
@@ -291,6 +294,116 @@ def test_every_compiler_gives_the_same_bits(own, precision, compiler, tmp_path, 
         assert ours[usual].tobytes() == theirs[usual].tobytes(), name
 
 
+HASHING = """
+#include <string.h>
+{unsigned} hash_of_{name}(void);
+{unsigned} hash_of_{name}(void)
+{{
+    {unsigned} hash = 1469598103u;
+    for ({unsigned} i = 1u; i <= {count}u; i++)
+    {{
+        {unsigned} pattern = i * ({unsigned}){odd}u;
+        {real} x = {zero};
+        memcpy(&x, &pattern, sizeof x);
+        {real} near = ({real})(int32_t)(i - {count}u / 2u) * {step};
+        {real} values[2];
+        values[0] = {function}(x{second});
+        values[1] = {function}(near{third});
+        for (int k = 0; k < 2; k++)
+        {{
+            {unsigned} bits = 0u;
+            if (values[k] == values[k])
+            {{
+                memcpy(&bits, &values[k], sizeof bits);
+            }}
+            hash = (hash ^ bits) * 16777619u;
+        }}
+    }}
+    return hash;
+}}
+"""
+"""A hash over the bits of a function, NaN as one: at patterns spread over all numbers, and on a grid about 0."""
+
+
+def hashes_source(precision, count):
+    """C of one hash for each function, and of 1 - x^2 (which shows whether the machine itself subtracts right)."""
+    lines = ["#include <math.h>", "#include <stdbool.h>", "#include <stdint.h>"]
+    lines.append(mathematics_text("t", Precision(precision), OWN))
+    single = precision == "float"
+    for name in sorted(OWN):
+        two = name in TWO_ARGUMENTS
+        lines.append(
+            HASHING.format(
+                name=name,
+                function=mathematics_name("t", name),
+                count=count,
+                real=precision,
+                unsigned="uint32_t" if single else "uint64_t",
+                odd=2654435761 if single else 11400714819323198485,
+                zero="0.0f" if single else "0.0",
+                step="0.0137f" if single else "0.0137",
+                second=", near" if two else "",
+                third=", x" if two else "",
+            )  # fmt: skip
+        )
+    plain = (
+        f"static {precision} t_subtraction({precision} x)\n{{\n    return {'1.0f' if single else '1.0'} - (x * x);\n}}"
+    )
+    lines.append(plain + HASHING.format(
+        name="subtraction", function="t_subtraction", count=count, real=precision,
+        unsigned="uint32_t" if single else "uint64_t", odd=2654435761 if single else 11400714819323198485,
+        zero="0.0f" if single else "0.0", step="1.0e-8f" if single else "1.0e-8", second="", third="",
+    ))  # fmt: skip
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize("target", ["cortex-m4", "cortex-m7", "rv32"])
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_every_target_gives_the_same_bits(precision, target, tmp_path, needs):
+    machine = target_named(target)
+    needs("gcc", machine.emulator)
+    count, kind = (20_000, "uint32_t") if precision == "float" else (6_000, "uint64_t")
+    names = [*sorted(OWN), "subtraction"]
+    declared = "".join(f"{kind} hash_of_{name}(void);\n" for name in names)
+    calls = "".join(f"    hashes[{k}] = hash_of_{name}();\n" for k, name in enumerate(names))
+    body = f"#include <stdint.h>\n{{head}}{declared}{{function}}\n{{{{\n    {kind} hashes[{len(names)}];\n{calls}    {{write}}\n}}}}\n"
+    (tmp_path / "functions.c").write_text(hashes_source(precision, count))
+    here = body.format(
+        head="#include <stdio.h>\n", function="int main(void)",
+        write="return fwrite(hashes, sizeof hashes[0], sizeof hashes / sizeof hashes[0], stdout) == 0u;",
+    )  # fmt: skip
+    (tmp_path / "here_main.c").write_text(here)
+    flags = ["-std=c99", "-O2", "-ffp-contract=off", "functions.c", "here_main.c", "-o", "here", "-lm"]
+    subprocess.run(["gcc", *flags], cwd=tmp_path, check=True)
+    ours = subprocess.run([str(tmp_path / "here")], capture_output=True, check=True).stdout
+    there = body.format(
+        head='#include "machine_main.h"\n', function="void run_calls(void)",
+        write="write_answers(hashes, (uint32_t)sizeof hashes);",
+    )  # fmt: skip
+    program = find_toolchain(machine).program(
+        {
+            "functions.c": hashes_source(precision, count),
+            "runner_main.c": there,
+            "machine_main.h": templates().get_template("machine_main.h").render(),
+            "machine_main.c": templates().get_template("machine_main.c").render(),
+        }
+    )
+    (tmp_path / "calls.bin").write_bytes(b"")
+    command = [machine.emulator, *machine.machine, "-nographic", "-monitor", "none", "-serial", "none"]
+    command += ["-semihosting-config", "enable=on,target=native", "-kernel", str(program)]
+    subprocess.run(command, cwd=tmp_path, check=True, timeout=300)
+    theirs = (tmp_path / "answers.bin").read_bytes()
+    size = len(ours) // len(names)
+    assert size == (4 if precision == "float" else 8)
+    assert len(set(np.frombuffer(ours, kind.removesuffix("_t")))) == len(names)
+    differing = [name for k, name in enumerate(names) if ours[k * size :][:size] != theirs[k * size :][:size]]
+    if "subtraction" in differing:
+        # a fault of gcc 12's libgcc, whose double on a Cortex-M4 is software; functions that end in 1 - b show it
+        assert (target, precision) == ("cortex-m4", "double")
+        differing = sorted(set(differing) - {"subtraction", "cos", "exp", "pow", "tanh"})
+    assert differing == []
+
+
 # -- properties -------------------------------------------------------------------------------------------------------
 
 
@@ -434,6 +547,40 @@ def test_libm_is_called_where_it_is_asked_for():
         emit(pendulum_ekf, mathematics="mine")
 
 
+def test_the_docs_state_these_bounds(checkout):
+    page = (Path(checkout) / "docs" / "mathematics.md").read_text()
+    stated = {
+        row[1]: (row[2], row[3]) for row in re.finditer(r"^\| (\w+) \| ([\d.]+) \| ([\d.]+) \|", page, re.MULTILINE)
+    }
+    assert stated == {name: tuple(f"{ERROR_BOUNDS[kind][name]:g}" for kind in PRECISIONS) for name in OWN}
+    for limit in LIMITS.values():
+        assert f"{limit:.0f}" in page
+
+
+@pytest.mark.slow
+def test_the_choice_is_recorded_and_check_keeps_to_it(plantc, tmp_path):
+    model = tmp_path / "model.py"
+    model.write_text(
+        "from plantc import Block\n"
+        "from plantc.symbolic import sin\n"
+        "wave = Block('wave', doc='the height of a crank')\n"
+        "turn = wave.input('turn', unit='rad', range=(-1, 1))\n"
+        "angle = wave.memory('angle', unit='rad', range=(-100, 100))\n"
+        "wave.entry('step', inputs=[turn], following={angle: angle + turn}, outputs={'height': sin(angle + turn)})\n"
+    )
+    for choice, call in (("own", "wave_math_sin("), ("libm", " sinf(")):
+        said = plantc(
+            "export", model, "--mathematics", choice, "--precision", "float", "--steps", 20, "--out", tmp_path
+        )
+        assert said.status == 0, said.err
+        folder = tmp_path / "wave"
+        assert call in (folder / "src" / "wave.c").read_text()
+        assert json.loads((folder / "manifest.json").read_text())["mathematics"] == choice
+        checked = plantc("check", folder, "--model", model, "--steps", 20)
+        assert checked.status == 0, checked.err
+    assert plantc("export", model, "--mathematics", "mine").status == 2
+
+
 def test_a_long_prefix_leaves_lines_narrow():
     text = mathematics_text("a_name_that_a_person_may_well_choose_for_a_filter", Precision("float"), OWN)
     assert max(len(line) for line in text.split("\n")) <= 120
@@ -443,6 +590,36 @@ def test_a_function_without_a_body_ends_in_a_sentence():
     with pytest.raises(mathematics.ModelError, match=r"plantc has no erf of its own; rewrite it with acos, .*libm"):
         mathematics_text("t", Precision("float"), {"erf"})
     assert not OWN & EXACT
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_a_prover_sees_no_undefined_behaviour_and_the_ranges(precision, tmp_path, needs):
+    """Frama-C's EVA, with arguments anywhere: no alarm, and the bounds that a filter's proof builds on."""
+    needs("frama-c")
+    interval = {"float": "Frama_C_float_interval", "double": "Frama_C_double_interval"}[precision]
+    top = "3.0e38f" if precision == "float" else "1.0e300"
+    lines = ["#include <math.h>", "#include <stdbool.h>", "#include <stdint.h>", '#include "__fc_builtin.h"']
+    lines += [mathematics_text("t", Precision(precision), OWN), "int main(void)", "{"]
+    for name in sorted(OWN):
+        arguments = [f"{interval}(-{top}, {top})"] * (2 if name in TWO_ARGUMENTS else 1)
+        lines.append(f"    {precision} of_{name} = {mathematics_name('t', name)}({', '.join(arguments)});")
+        lines.append(f"    Frama_C_show_each_{name}(of_{name});")
+    lines += ["    return 0;", "}"]
+    (tmp_path / "all.c").write_text("\n".join(lines) + "\n")
+    command = ["frama-c", "-eva", "-eva-precision", "4", "-warn-special-float", "none", str(tmp_path / "all.c")]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    said = done.stdout
+    assert done.returncode == 0, said[-2000:] + done.stderr
+    assert "\n  0 alarms generated by the analysis." in said
+    shown = {row[1]: row for row in re.finditer(r"show_each_(\w+):\s+\[(\S+) \.\. (\S+)\]", said)}
+    assert set(shown) == set(OWN)
+    for name, low, high in (
+        ("sin", -1, 1), ("cos", -1, 1), ("tanh", -1, 1), ("acos", 0, 3.1416), ("atan", -1.5708, 1.5708),
+        ("atan2", -3.1416, 3.1416), ("asin", -2.571, 2.571), ("exp", 0, np.inf),
+    ):  # fmt: skip
+        assert low <= float(shown[name][2]), name
+        assert float(shown[name][3]) <= high, name
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)

@@ -103,6 +103,28 @@ def test_a_fault_on_the_target_is_seen(name, needs):
         assert check.mismatch.entry in ("predict", "step")
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["cortex-m4", "cortex-m7"])
+def test_a_last_bit_of_software_double_is_judged_by_tolerance(name, needs):
+    """A Cortex-M4F's software double does not always round as IEEE 754 says; a Cortex-M7 has no such excuse."""
+    text = emit(quadrotor_kf, "double")
+    assert "(0.24525 *" in text.source
+    bent = replace(text, source=text.source.replace("(0.24525 *", "(0.2452500000000001 *"))
+    lockstep, free, facts = on(name, quadrotor_kf, "double", needs, text=bent)
+    assert not facts["free_run"]["equal_to_host"]
+    if name == "cortex-m4":
+        assert lockstep.passed
+        assert 0 < lockstep.worst < 1e-9
+        assert "does not always round as IEEE 754 says" in lockstep.note
+        assert "does not always round as IEEE 754 says" in free.note
+    else:
+        assert not lockstep.passed
+        assert not free.passed
+    grossly = replace(text, source=text.source.replace("(0.24525 *", "(0.24526 *"))
+    lockstep, _, _ = on(name, quadrotor_kf, "double", needs, text=grossly)
+    assert not lockstep.passed
+
+
 def test_a_status_that_differs_is_seen(needs):
     text = emit(quadrotor_kf, "float")
     bent = replace(text, source=text.source.replace("<= 10000.0f", "<= 9999.0f"))

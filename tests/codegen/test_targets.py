@@ -16,7 +16,7 @@ from plantc.codegen.targets import (
     find_emulator,
     find_toolchain,
     installed_targets,
-    linked_sizes,
+    linked_library,
     target_named,
 )
 from plantc.examples.pendulum import pendulum_ekf
@@ -120,8 +120,8 @@ def test_what_a_library_calls_counts_too(tmp_path, needs):
     toolchain = find_toolchain(TARGETS["cortex-m4"], kind="gcc")
     entries = list(quadrotor_kf.entries)
     alone = Sizes.of(toolchain.library_object(emit(quadrotor_kf, "double"), tmp_path))
-    linked = linked_sizes(toolchain, emit(quadrotor_kf, "double"), entries)
+    linked = Sizes.of(linked_library(toolchain, emit(quadrotor_kf, "double"), entries, tmp_path))
     assert linked.text > alone.text + 1000
-    single = linked_sizes(toolchain, emit(quadrotor_kf, "float"), entries)
+    single = Sizes.of(linked_library(toolchain, emit(quadrotor_kf, "float"), entries, tmp_path))
     assert single.text < linked.text
     assert single.data == single.bss == 0

@@ -52,6 +52,28 @@ def test_figures_of_several_targets(export, needs, tmp_path, precision):
     assert json.loads((tmp_path / "generated_c/low_pass/evidence.json").read_text())["targets"] == told["targets"]
 
 
+@pytest.mark.slow
+def test_the_quadrotor_on_every_target(needs, checkout, tmp_path, plantc):
+    """The main job: figures from the emulators, agreement with the reference, and the same bits."""
+    needs("arm-none-eabi-gcc", "riscv64-unknown-elf-gcc", "qemu-system-arm", "qemu-system-riscv32")
+    names = ("cortex-m4", "cortex-m7", "rv32")
+    model = f"{checkout / 'examples/quadrotor_ekf.py'}:quadrotor_ekf"
+    words = [word for name in names for word in ("--target", name)]
+    said = plantc("export", model, "--precision", "float", "--out", tmp_path, "--json", *words)
+    assert said.status == 0, said.err
+    told = json.loads(said.out)["blocks"][0]
+    checks = {item["name"]: item for item in told["checks"]}
+    assert all(item["passed"] for item in checks.values())
+    assert checks["float statuses = reference in float"]["calls"] > 100
+    for name in names:
+        assert checks[f"{name} = native"]["note"] == checks[f"{name} = native, free run"]["note"] == "bit for bit"
+        facts = told["targets"][name]
+        assert set(facts["instructions"]) == {"init", "predict", "update_pose", "step", "inflate"}
+        assert facts["instructions"]["step"] > facts["instructions"]["update_pose"]
+        assert 0 < facts["flash"]["needed"] <= facts["flash"]["available"]
+        assert 0 < facts["ram"]["needed"] <= facts["ram"]["available"]
+
+
 def test_contraction_is_in_the_evidence_and_the_manifest(export, needs, tmp_path, plantc):
     needs("arm-none-eabi-gcc", "qemu-system-arm")
     said = export("--target", "cortex-m7", "--contract", "on", "--json")
@@ -109,3 +131,22 @@ def test_a_missing_tool_is_a_sentence_with_its_package(export, needs, monkeypatc
     monkeypatch.setattr(targets.importlib.util, "find_spec", lambda module: None)
     refused(export("--target", name), f"apt install {package}")
     assert not (tmp_path / "generated_c").exists()
+
+
+def test_check_runs_what_lies_there_on_a_target(export, needs, tmp_path, plantc):
+    needs("arm-none-eabi-gcc", "qemu-system-arm")
+    assert export("--precision", "float").status == 0
+    folder = tmp_path / "generated_c/low_pass"
+    arguments = ("check", folder, "--model", "model.py", "--steps", 20, "--target", "cortex-m4")
+    good = plantc(*arguments, "--json")
+    assert good.status == 0, good.err
+    names = [item["name"] for item in json.loads(good.out)["checks"]]
+    assert names[-2:] == ["cortex-m4 = native", "cortex-m4 = native, free run"]
+    source = folder / "src/low_pass.c"
+    whole = source.read_text()
+    spoilt = whole.replace(" smooth_0;\n", " smooth_0\n#ifdef __arm__\n + 0.5f\n#endif\n;\n", 1)
+    assert spoilt != whole
+    source.write_text(spoilt)
+    bad = plantc(*arguments)
+    assert bad.status == 1
+    assert "cortex-m4 gives" in bad.err
