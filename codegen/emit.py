@@ -353,9 +353,7 @@ class _Emitter:
             "limits": [self.precision.literal(item) for item in limits],
             "floors": [self.precision.literal(item) for item in hold.floor],
             "ceilings": [self.precision.literal(item) for item in hold.ceiling],
-            "diagonal": [
-                (packed_index(size, i, i), self.precision.literal(item)) for i, item in enumerate(hold.floor)
-            ],
+            "diagonal": [(packed_index(size, i, i), self.precision.literal(item)) for i, item in enumerate(hold.floor)],
         }
         text = templates().get_template("hold_variances.c.j2").render(**context)
         return [
