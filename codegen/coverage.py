@@ -316,8 +316,9 @@ def _findings(
     check = CheckResult("vectors reach every statement", not faults and not too_many, calls=statements["all"])
     if too_many:
         check.note = f"{left_out} statement(s) that only the corpus runs, and no shipped vector"
-    elif left_out:
-        check.note = f"but {left_out} rare one(s), which only the corpus runs"
+    elif by_vectors.missed():
+        check.note = f"but {len(by_vectors.missed())}, each listed with its reason"
+        check.note += f"; {left_out} of them rare, which only the corpus runs" if left_out else ""
     if faults:
         check.note = f"{len(faults)} statement(s) that no shipped vector runs; first {faults[0]}"
     facts = {
@@ -336,8 +337,8 @@ def _statement_reason(
 ) -> str:
     """Return why a statement need not be reached by a vector; empty if it must be."""
     if _is_mathematical(block, provenance, number):
-        ran = "calls of the corpus run it" if by_corpus else f"no call of the corpus ({corpus}) has such an argument"
-        return f"a branch of a mathematical function for arguments that no vector has; {ran}, and plantc's tests do"
+        ran = "calls of the corpus run it" if by_corpus else f"none of {corpus} calls runs it"
+        return f"a branch of a mathematical function for arguments that no vector has; {ran}"
     if not by_corpus and parent is not None and parent.kind == "judgement":
         return f"none of {corpus} calls made this judgement fail; it stays as a defence"
     if by_corpus and parent is not None and parent.kind in _MAY_BE_RARE:
@@ -350,7 +351,7 @@ def _branch_reason(
 ) -> str:
     """Return why nothing took a branch."""
     if _is_mathematical(block, provenance, number):
-        return "a branch of a mathematical function for arguments that this model does not give it; plantc's tests do"
+        return f"a branch of a mathematical function for arguments that none of {corpus} calls gave it"
     if parent is not None and parent.kind == "judgement":
         return f"none of {corpus} calls had this bound alone decide; it stays as a defence"
     if "?" in line:

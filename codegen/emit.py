@@ -15,7 +15,7 @@ import jinja2
 from ..symbolic.block import Block
 from ..symbolic.errors import ModelError
 from ..symbolic.kernels import AllStatesUpdate
-from ..symbolic.program import Entry, HoldVariances, walk
+from ..symbolic.program import Entry, HoldVariances, packed_index, walk
 from ..symbolic.signals import STATUS_TEXT, Kind, Signal, Status
 from .layout import default_text, struct_lines
 from .mathematics import CHOICES, OWN, mathematics_note, mathematics_text
@@ -336,7 +336,7 @@ class _Emitter:
 
     def _hold_variances(self, hold: HoldVariances, prefix: str) -> list[str]:
         """Write the rare path of `HoldVariances`: compact loops, called only when a variance left its bounds."""
-        self.used |= {"hold_variances", self.precision.function("sqrt"), self.precision.function("fabs")}
+        self.used |= {"hold_variances", self.precision.function("sqrt")}
         size = hold.size
         limits = hold.limits()
         same = len(set(hold.floor)) == 1 and len(set(hold.ceiling)) == 1 and len(set(limits)) == 1
@@ -350,14 +350,14 @@ class _Emitter:
             "zero": self.precision.literal(0.0),
             "sqrt": self.precision.function("sqrt"),
             "same": same,
-            "fabs": self.precision.function("fabs"),
             "limits": [self.precision.literal(item) for item in limits],
             "floors": [self.precision.literal(item) for item in hold.floor],
             "ceilings": [self.precision.literal(item) for item in hold.ceiling],
+            "diagonal": [(packed_index(size, i, i), self.precision.literal(item)) for i, item in enumerate(hold.floor)],
         }
         text = templates().get_template("hold_variances.c.j2").render(**context)
         return [
-            *text.rstrip("\n").split("\n"), *bounded_helper(prefix, self.precision, size, hold.floor, min(limits))
+            *text.rstrip("\n").split("\n"), *bounded_helper(prefix, self.precision, size, hold.floor, limits)
         ]  # fmt: skip
 
 

@@ -26,7 +26,7 @@ TIMEOUT = 300.0
 _FAILURES = {
     70: "the processor met a fault (a memory access or instruction it refuses)",
     71: "the answers could not be written to the temporary folder",
-    72: f"a call used more than the {STACK} bytes of stack that are painted",
+    72: "a call used more than the {painted} bytes of stack that are painted",
     73: "the file of calls could not be opened",
 }
 
@@ -105,6 +105,9 @@ class TargetView(View):
         self.toolchain = toolchain or find_toolchain(target)
         self.contract = contract
         self.text = text or emit(block, precision)
+        # a call holds a few copies of memory and outputs: more is painted where these are large
+        largest = max(outputs_dtype(entry, self.precision).itemsize for entry in block.entries.values())
+        self.painted = STACK + 16 * (memory_dtype(block, self.precision).itemsize + largest) // 1024 * 1024
         self.most: dict[str, Measured] = {}
         self.last: list[Measured] = []
         self.path = self.toolchain.program(
@@ -116,6 +119,7 @@ class TargetView(View):
                 "runner_main.c": self.runner(),
             },
             contract=contract,
+            stack=self.painted,
         )
 
     def runner(self) -> str:
@@ -249,7 +253,8 @@ class TargetView(View):
                 f"{self.block.name} on {self.name}: the emulator did not end within {TIMEOUT:g} s; take fewer --steps"
             ) from None
         if done.returncode != 0:
-            what = _FAILURES.get(done.returncode, f"{self.target.emulator} ended with {done.returncode}")
+            other = f"{self.target.emulator} ended with {done.returncode}"
+            what = _FAILURES.get(done.returncode, other).format(painted=self.painted)
             said = done.stderr.strip()[:500]
             raise TargetError(f"{self.block.name} on {self.name}: {what}{': ' + said if said else ''}")
 

@@ -18,7 +18,7 @@ from .compiler import BASE_FLAGS, WARNINGS, Compiler, CompilerError, cache_folde
 from .emit import CText, templates
 
 STACK = 32 * 1024
-"""Bytes of stack that the emulated machine paints; a call that uses more is told."""
+"""Bytes of stack that the emulated machine paints at least; a call that uses more is told."""
 
 MACHINE_MEMORY = 4 * 1024 * 1024
 """Bytes of program memory and of data memory that the emulated machines have, whatever a target is said to have."""
@@ -253,9 +253,11 @@ class Toolchain:
         self.compile({f"{text.name}.h": text.header, f"{text.name}.c": text.source}, folder, contract=contract)
         return folder / f"{text.name}.o"
 
-    def link(self, objects: list[str], result: str, folder: Path, *, flash: int, ram: int, entry: str) -> Path:
+    def link(
+        self, objects: list[str], result: str, folder: Path, *, flash: int, ram: int, entry: str, stack: int = STACK
+    ) -> Path:
         """Link objects (and ``_main.c`` files) for the target, without anybody's start-up code."""
-        script = templates().get_template(self.target.script).render(flash=flash, ram=ram, entry=entry, stack=STACK)
+        script = templates().get_template(self.target.script).render(flash=flash, ram=ram, entry=entry, stack=stack)
         (folder / f"{result}.ld").write_text(script)
         libraries = ["-lm"] if self.kind == "gcc" else []
         if self.kind == "zig":
@@ -268,7 +270,7 @@ class Toolchain:
         self.run([*options, *objects, *libraries, "-o", f"{result}.elf"], folder)
         return folder / f"{result}.elf"
 
-    def program(self, sources: Mapping[str, str], *, contract: bool = False) -> Path:
+    def program(self, sources: Mapping[str, str], *, contract: bool = False, stack: int = STACK) -> Path:
         """Return a program of some C text for the emulator, linked once for each text and toolchain.
 
         Parameters
@@ -277,9 +279,11 @@ class Toolchain:
             File name -> text. Library code, and files ending in ``_main.c``, which get no contraction.
         contract : bool
             Whether a product and a sum may be fused in the library.
+        stack : int
+            Bytes of stack to paint.
         """
         digest = hashlib.sha256(f"{self.key()}\0{self.target.name}\0{contract}\0".encode())
-        script = templates().get_template(self.target.script).render(flash=0, ram=0, entry="reset", stack=STACK)
+        script = templates().get_template(self.target.script).render(flash=0, ram=0, entry="reset", stack=stack)
         for name in sorted(sources):
             digest.update(f"{name}\0{sources[name]}\0".encode())
         digest.update(script.encode())
@@ -291,7 +295,8 @@ class Toolchain:
             self.compile(sources, folder, contract=contract)
             parts = [f"{file.removesuffix('.c')}.o" for file in sources if _is_library(file)]
             parts += [file for file in sources if file.endswith("_main.c")]
-            built = self.link(parts, "program", folder, flash=MACHINE_MEMORY, ram=MACHINE_MEMORY, entry="reset")
+            size = MACHINE_MEMORY
+            built = self.link(parts, "program", folder, flash=size, ram=size, entry="reset", stack=stack)
             partial = kept.with_suffix(f".{os.getpid()}.tmp")
             shutil.copy(built, partial)
             os.replace(partial, kept)

@@ -119,6 +119,7 @@ class CoreWriter:
         self.fixed: dict[Place, list[Node]] = {}
         self.arrays: dict[Place, int] = {}
         self.declared: list[str] = []
+        self.guarding = False
         self.inside: dict[Place, str] = {}
         self.arrays_inside: dict[Place, int] = {}
         self.versions: Counter[Place] = Counter()
@@ -443,7 +444,7 @@ class CoreWriter:
                 return self._within(condition)
             case Compare():
                 left, right = self._comparable(condition.left, condition.right)
-                return [f"({left} {condition.relation} {right})"]
+                return [self._compared(f"{left} {condition.relation} {right}")]
             case IsSet():
                 signal = self._signal(condition.flag.place)
                 slot = self._operand(condition.flag)
@@ -465,12 +466,13 @@ class CoreWriter:
         clauses = []
         for k, (low, high) in enumerate(zip(condition.low, condition.high, strict=True)):
             slot = self._operand(Element(condition.place, condition.first + k))
-            if low == -high:
-                clauses.append(f"({self._call('fabs', slot)} <= {self.precision.literal(high)})")
-            else:
-                clauses.append(f"({slot} >= {self.precision.literal(low)})")
-                clauses.append(f"({slot} <= {self.precision.literal(high)})")
+            clauses.append(self._compared(f"{slot} >= {self.precision.literal(low)}"))
+            clauses.append(self._compared(f"{slot} <= {self.precision.literal(high)}"))
         return clauses
+
+    def _compared(self, text: str) -> str:
+        """Return a comparison as a clause; one that guards a commit also tells the analyser that it is false for NaN."""
+        return f"(({text}) == true)" if self.guarding else f"({text})"
 
     def _call(self, name: str, *arguments: str) -> str:
         function = self.precision.function(name)
@@ -484,7 +486,9 @@ class CoreWriter:
         if self.lines and self.lines[-1]:
             self._line("")
         self._comment(statement.comment)
+        self.guarding = True
         self._condition_head("if (!", statement.unless, ")")
+        self.guarding = False
         self._open()
         self._line(f"status = {self.upper}_{statement.status.name};")
         self._close()
@@ -500,7 +504,7 @@ class CoreWriter:
         self._comment("judge, then commit")
         self._open(f"if (!{self.prefix}_is_bounded({base}))")
         self._line(f"status = {self.prefix}_hold_variances({base});")
-        self.functions |= {"hold_variances", self.precision.function("fabs")}
+        self.functions.add("hold_variances")
         self._close()
         self.versions[statement.target] += 1
 
@@ -774,10 +778,10 @@ class CoreWriter:
         attempts = [item for item in walk(self.entry.body) if isinstance(item, Attempt)]
         depth = max((len(item.calls) for item in attempts), default=1)
         self._bookkeeping("the latest memory, and spare ones for what may be refused")
-        self._line(f"{p}_state_t work[{2 + max(0, depth - 1)}];")
+        self._line(f"{p}_state_t work[{max(1, depth)}];")
         self._line(f"{p}_state_t *latest = &work[0];")
         if attempts:
-            self._line(f"{p}_state_t *spare = &work[1];")
+            self._line(f"{p}_state_t *spare = after;")
         first, *rest = self.entry.body
         assert isinstance(first, Call)
         self.lines.parent = self.genealogy.of(first)
@@ -786,7 +790,11 @@ class CoreWriter:
         self._open(f"if (status >= {u}_OK)")
         self._all_sequenced(rest, more=False)
         self.lines.parent = self.genealogy.parent("commit", "the latest memory is the answer")
+        if attempts:
+            self._open("if (latest != after)")
         self._line("*after = *latest;")
+        if attempts:
+            self._close()
         self._close()
         self._bookkeeping("the status to be returned")
         self._line("return status;")
@@ -818,14 +826,14 @@ class CoreWriter:
         p, u = self.prefix, self.upper
         calls = statement.calls
         self._line(
-            f"{self.root}_status_t own = {self.call_text(calls[0], 'latest', 'spare' if len(calls) == 1 else '&work[2]')};"
+            f"{self.root}_status_t own = {self.call_text(calls[0], 'latest', 'spare' if len(calls) == 1 else '&work[1]')};"
         )
         if len(calls) > 1:
             self._line(f"{self.root}_status_t highest = status;")
         self._line("")
         for k, call in enumerate(calls[1:], start=1):
             last = k == len(calls) - 1
-            source, target = f"&work[{k + 1}]", "spare" if last else f"&work[{k + 2}]"
+            source, target = f"&work[{k}]", "spare" if last else f"&work[{k + 1}]"
             self._open(f"if (own >= {u}_OK)")
             self._line(f"highest = {self.root}_higher(highest, own);")
             self._line(f"own = {self.call_text(call, source, target)};")

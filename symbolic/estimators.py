@@ -50,6 +50,7 @@ from .program import (
     Restore,
     Statement,
     When,
+    Within,
     packed_index,
     packed_size,
     unpack_symmetric,
@@ -836,7 +837,7 @@ class _Builder:
             )
         body += [AllStatesUpdate(tuple(updates))] if whole else updates
         body.append(Refuse(Status.NOT_POSITIVE, _all_above(Place("local", "row_variance"), m, SMALLEST_VARIANCE)))
-        finite = Compare(Element(Place("local", "nis")), "<=", LARGEST_NIS)
+        finite = Within(Place("local", "nis"), (0.0,), (LARGEST_NIS,))
         body.append(Refuse(Status.OVERFLOW, finite))
         body.append(Assign(Place("out", "nis"), Place("local", "nis"), 1))
         gate = Element(Place("in", "gate"))
