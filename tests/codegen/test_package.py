@@ -21,7 +21,9 @@ def test_the_files_are_those_promised(exported):
     names = {path.relative_to(exported.folder).as_posix() for path in exported.folder.rglob("*") if path.is_file()}
     assert names == {
         "src/pendulum_ekf.h", "src/pendulum_ekf.c", "test/test_vectors.c", "examples/example_main.c", "verify/fuzz_main.c",
-        "CMakeLists.txt", "manifest.json", "trace.json", "evidence.json", "report.html",
+        "CMakeLists.txt", "cmake/pendulum_ekfConfig.cmake.in", "cmake/pendulum_ekf.pc.in", "library.json",
+        "library.properties", "examples/pendulum_ekf/pendulum_ekf.ino", "zephyr/module.yml", "zephyr/CMakeLists.txt",
+        "zephyr/Kconfig", "manifest.json", "trace.json", "evidence.json", "report.html",
     }  # fmt: skip
     for path in exported.folder.rglob("*.c"):
         library = path.name == "pendulum_ekf.c"
