@@ -2,7 +2,6 @@
 
 import json
 import shutil
-import subprocess
 
 import pytest
 from plantc.codegen import package
@@ -58,14 +57,6 @@ def test_the_vectors_reach_every_status_that_the_check_reached_and_can_fail(expo
     broken = package.run_vectors("pendulum_ekf", files)
     assert not broken.passed
     assert "differ" in broken.note
-
-
-def test_cmake_builds_and_tests_it(exported, tmp_path, needs):
-    needs("cmake", "ctest", "cc")
-    build = tmp_path / "build"
-    subprocess.run(["cmake", "-S", str(exported.folder), "-B", str(build)], check=True, capture_output=True)
-    subprocess.run(["cmake", "--build", str(build)], check=True, capture_output=True)
-    subprocess.run(["ctest", "--test-dir", str(build)], check=True, capture_output=True)
 
 
 def test_check_finds_what_was_changed(exported, tmp_path):
