@@ -3,11 +3,14 @@
 from .compiler import CompilerError, find_compiler
 from .crosscheck import CrossCheck, cross_check
 from .emit import CText, emit
+from .emulator import TargetView
 from .package import DesignError, Export, ExportError, check_folder, export
+from .targets import TARGETS, Target, TargetError
 from .trace import Trace, TraceCall, TraceError
 from .views import Answer, InterpretView, NativeView, ReferenceView, View
 
 __all__ = [
+    "TARGETS",
     "Answer",
     "CText",
     "CompilerError",
@@ -18,6 +21,9 @@ __all__ = [
     "InterpretView",
     "NativeView",
     "ReferenceView",
+    "Target",
+    "TargetError",
+    "TargetView",
     "Trace",
     "TraceCall",
     "TraceError",

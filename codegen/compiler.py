@@ -89,9 +89,9 @@ class Compiler:
         return target
 
     def program(self, sources: Sequence[Path], target: Path, *, contract: bool = False) -> Path:
-        """Compile sources into a program."""
-        flags = [*BASE_FLAGS, *WARNINGS, contraction_flag(contract)]
-        self.run([*flags, *[item.name for item in sources], "-o", str(target), "-lm"], sources[0].parent)
+        """Compile sources into a program; headers lie beside the first of them."""
+        flags = [*BASE_FLAGS, *WARNINGS, contraction_flag(contract), f"-I{sources[0].parent}"]
+        self.run([*flags, *[str(item) for item in sources], "-o", str(target), "-lm"], sources[0].parent)
         return target
 
 

@@ -134,6 +134,41 @@ def cross_check(
     return CrossCheck(results, counts, probes)
 
 
+def compare_answers(
+    block: Block,
+    precision: str,
+    native: View,
+    name: str,
+    probes: list[Probe],
+    answers: list[Answer],
+    limit: float,
+) -> CheckResult:
+    """Compare what another machine answered to the calls of a lockstep with the native view, within a limit.
+
+    Parameters
+    ----------
+    block : Block
+        What was run.
+    precision : {"double", "float"}
+        Of the C.
+    native : View
+        Whose answers the probes carry.
+    name : str
+        Of the result: ``"<other> = native"``.
+    probes : list of Probe
+        The calls, with the native view's answers.
+    answers : list of Answer
+        The other machine's, in the same order.
+    limit : float
+        Largest accepted difference, in sigma (or relative).
+    """
+    lock = _Lockstep(block, precision, make_views(block, precision, native))
+    for probe, answer in zip(probes, answers, strict=True):
+        if probe.answer is not None:
+            lock.pair(name, probe, answer, probe.answer, limit)
+    return next(result for result in lock.results() if result.name == name)
+
+
 def _accepted(probes: list[Probe]) -> CheckResult:
     """A trace on which every call is refused compares nothing."""
     nominal = [probe for probe in probes if probe.trace == "nominal" and probe.answer is not None]
@@ -418,6 +453,7 @@ class _Lockstep:
         self.excused: set[tuple[str, str, int]] = set()
         self.excused_plausible: dict[str, int] = {}
         self.scales = None if block.scenario is None else block.scenario.scales
+        self.between_machines = False
 
     def compare(self, probe: Probe) -> None:
         """Run one call everywhere."""
@@ -440,6 +476,12 @@ class _Lockstep:
             self._statuses("float statuses = reference in float", probe, native, same, margin, other)
         best = interpret if reference is None else reference
         self._pair("float = double", probe, native, best, margin, self.block.float_bound, statuses=False)
+
+    def pair(self, name: str, probe: Probe, left: Answer, right: Answer, limit: float) -> None:
+        """Compare two answers that were already given."""
+        self.between_machines = True
+        witness = self.views.reference_same_precision if self.single else None
+        self._pair(name, probe, left, right, math.inf, limit, witness=witness)
 
     def _converted(self, view: View, probe: Probe) -> Answer:
         """Call a view of another precision with the same numbers."""
@@ -519,10 +561,11 @@ class _Lockstep:
         limit: float,
         *,
         statuses: bool = True,
+        witness: View | None = None,
     ) -> None:
         result = self._result(name, limit)
         if statuses:
-            if not self._statuses(name, probe, left, right, margin):
+            if not self._statuses(name, probe, left, right, margin, witness):
                 return
         else:
             if left.status < 0 or self._all_statuses(probe.entry, left) != self._all_statuses(probe.entry, right):
@@ -635,6 +678,10 @@ class _Lockstep:
         """Whether a difference is no larger than what rounding of the memory itself causes (an ill-conditioned map)."""
         views = [view for view in (self.views.reference, self.views.interpret) if view is not None]
         found = [(view, answer) for view in views if (answer := self._converted(view, probe)).status >= 0]
+        if self.between_machines and probe.answer is not None:
+            ours = self._all_statuses(probe.entry, probe.answer)
+            if any(ours != self._all_statuses(probe.entry, self._converted(view, probe)) for view in views):
+                return True  # in double it is refused, or a sensor is: that it was accepted at all is rounding's doing
         if not found:
             return False
         view, base = found[0]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
@@ -15,9 +15,11 @@ import jinja2
 from ..symbolic.block import Block
 from ..symbolic.errors import ModelError
 from ..symbolic.kernels import AllStatesUpdate
-from ..symbolic.program import Entry, HoldVariances, walk
+from ..symbolic.program import Entry, HoldVariances, packed_index, walk
 from ..symbolic.signals import STATUS_TEXT, Kind, Signal, Status
 from .layout import default_text, struct_lines
+from .mathematics import CHOICES, OWN, mathematics_note, mathematics_text
+from .provenance import Genealogy, Parent, Provenance, TracedLines, marked, unmarked
 from .rows import bounded_helper, pair_helpers
 from .style import WIDTH, Precision, comment_lines, comment_safe, wrap_line
 from .writer import CoreWriter, Style, core_name, has_outputs, is_sequenced, needs_params, style_for, wrap_signature
@@ -58,6 +60,8 @@ class CText:
         The two files.
     operations : dict
         Entry -> count of operations by kind.
+    provenance : Provenance
+        What each line of the source is there for.
     """
 
     name: str
@@ -65,9 +69,12 @@ class CText:
     header: str
     source: str
     operations: dict[str, dict[str, int]]
+    provenance: Provenance = field(default_factory=Provenance)
 
 
-def emit(block: Block, precision: str | Precision = "double", style: Style | None = None) -> CText:
+def emit(
+    block: Block, precision: str | Precision = "double", style: Style | None = None, *, mathematics: str = "own"
+) -> CText:
     """Return the C99 text of a block: the same bytes for the same model, anywhere.
 
     Parameters
@@ -78,10 +85,21 @@ def emit(block: Block, precision: str | Precision = "double", style: Style | Non
         Type of every real number.
     style : Style, optional
         The emitter's choices; by default those for the precision.
+    mathematics : {"own", "libm"}
+        Whose `sin`, `exp` ... the C calls, where no style is given: plantc's own, or the C library's.
+
+    Raises
+    ------
+    ModelError
+        If a number does not fit into the precision, or a function has no counterpart in the C.
+    ValueError
+        If `mathematics` is neither.
     """
+    if mathematics not in CHOICES:
+        raise ValueError(f"the mathematics {mathematics!r} is not known; take 'own' or 'libm'")
     kind = precision if isinstance(precision, Precision) else Precision(precision)
     try:
-        return _Emitter(block, kind, style or style_for(kind)).text()
+        return _Emitter(block, kind, style or style_for(kind, mathematics)).text()
     except OverflowError as error:
         raise ModelError(f"{block.name}: {error}; rescale the units, or export in double") from None
 
@@ -92,10 +110,12 @@ class _Emitter:
         self.name = block.name
         self.operations: dict[str, dict[str, int]] = {}
         self.used: set[str] = set()
+        self.own: set[str] = set()
 
     def text(self) -> CText:
         """Write both files."""
         cores = self._cores(self.block, self.name)
+        parents: list[Parent] = []
         publics = [line for entry in self.block.entries.values() for line in ["", *self._public(entry)]]
         context = {
             "name": self.name,
@@ -114,7 +134,7 @@ class _Emitter:
                 **context,
                 title=self._title(),
                 equations=self._equation_lines(),
-                notes=[line for note in self.block.notes for line in textwrap.wrap(comment_safe(note), WIDTH - 3)],
+                notes=[line for note in self._notes() for line in textwrap.wrap(comment_safe(note), WIDTH - 3)],
                 structs=self._structs(self.block, self.name),
                 default=self._default_macro(),
                 prototypes=self._prototypes(),
@@ -123,15 +143,27 @@ class _Emitter:
         source = (
             templates()
             .get_template("source.c.j2")
-            .render(**context, cores="\n".join(cores), publics="\n".join(publics))
+            .render(
+                **context,
+                mathematics=mathematics_text(self.name, self.precision, self.own),
+                cores=marked(cores, parents),
+                publics=marked(publics, parents),
+            )
         )
-        return CText(self.name, self.precision, _tidy(header), _tidy(source), self.operations)
+        clean, provenance = unmarked(_tidy(source), parents)
+        return CText(self.name, self.precision, _tidy(header), clean, self.operations, provenance)
 
     # -- header -------------------------------------------------------------------------------------------------------
 
     def _title(self) -> str:
         kind = "single" if self.precision.is_float else "double"
         return f"{self.name}: {comment_safe(self.block.doc).rstrip('.') or 'a block'}, in {kind} precision."
+
+    def _notes(self) -> list[str]:
+        """Return the block's notes, and whose mathematics the C calls."""
+        names = {name.removesuffix("f") if self.precision.is_float else name for name in self.used} & OWN
+        note = mathematics_note(self.precision, names, self.style.mathematics)
+        return [*self.block.notes, *([note] if note else [])]
 
     def _equation_lines(self) -> list[str]:
         return [
@@ -263,6 +295,7 @@ class _Emitter:
                 continue
             written = CoreWriter(block, entry, prefix, self.style, self.name).write()
             self.used |= written.functions
+            self.own |= written.own
             key = entry.name if prefix == self.name else f"{prefix.removeprefix(self.name + '_')}.{entry.name}"
             self.operations[key] = dict(sorted(written.operations.items()))
             counted = _operations_text(written.operations)
@@ -271,7 +304,10 @@ class _Emitter:
 
     def _public(self, entry: Entry) -> list[str]:
         p, u = self.name, self.name.upper()
-        lines = [*wrap_signature(self._public_signature(entry)), "{"]
+        commit = Genealogy(self.block, entry).parent(
+            "commit", "memory and outputs are written where the status is not negative"
+        )
+        lines = TracedLines([*wrap_signature(self._public_signature(entry)), "{"], commit)
         sequenced = is_sequenced(entry)
         target = "state" if sequenced else "&after"
         arguments = [] if entry.checks_params else ["state"]
@@ -295,11 +331,12 @@ class _Emitter:
         )
         if commits:
             lines += ["", f"    if (status >= {u}_OK)", "    {", *commits, "    }"]
-        return [*lines, "    return status;", "}"]
+        lines += ["    return status;", "}"]
+        return lines
 
     def _hold_variances(self, hold: HoldVariances, prefix: str) -> list[str]:
         """Write the rare path of `HoldVariances`: compact loops, called only when a variance left its bounds."""
-        self.used |= {"hold_variances", self.precision.function("sqrt"), self.precision.function("fabs")}
+        self.used |= {"hold_variances", self.precision.function("sqrt")}
         size = hold.size
         limits = hold.limits()
         same = len(set(hold.floor)) == 1 and len(set(hold.ceiling)) == 1 and len(set(limits)) == 1
@@ -313,14 +350,14 @@ class _Emitter:
             "zero": self.precision.literal(0.0),
             "sqrt": self.precision.function("sqrt"),
             "same": same,
-            "fabs": self.precision.function("fabs"),
             "limits": [self.precision.literal(item) for item in limits],
             "floors": [self.precision.literal(item) for item in hold.floor],
             "ceilings": [self.precision.literal(item) for item in hold.ceiling],
+            "diagonal": [(packed_index(size, i, i), self.precision.literal(item)) for i, item in enumerate(hold.floor)],
         }
         text = templates().get_template("hold_variances.c.j2").render(**context)
         return [
-            *text.rstrip("\n").split("\n"), *bounded_helper(prefix, self.precision, size, hold.floor, min(limits))
+            *text.rstrip("\n").split("\n"), *bounded_helper(prefix, self.precision, size, hold.floor, limits)
         ]  # fmt: skip
 
 

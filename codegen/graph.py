@@ -225,10 +225,8 @@ class Graph:
                     zero = self.const(0.0)
                     below = self.make("select", self.make("lt", items[0], zero), self.const(-1.0), items[0])
                     node = self.make("select", self.make("lt", zero, items[0]), self.const(1.0), below)
-                case "fmin":
-                    node = self.make("select", self.make("lt", items[0], items[1]), items[0], items[1])
-                case "fmax":
-                    node = self.make("select", self.make("lt", items[1], items[0]), items[0], items[1])
+                case "fmin" | "fmax":
+                    node = self._extreme(step.operation, *[self.as_number(item) for item in items])
                 case "and" | "or" | "not":
                     truths = [item if item.is_boolean else self.make("ne", item, self.const(0.0)) for item in items]
                     node = self.make(step.operation, *truths)
@@ -236,6 +234,15 @@ class Graph:
                     node = self.make(operation, *[self.as_number(item) for item in items])
             nodes.append(node)
         return [[self.as_number(nodes[item]) for item in output] for output in tape.outputs]
+
+    def _extreme(self, operation: str, a: Node, b: Node) -> Node:
+        """Return fmin or fmax as comparisons, like CasADi's: NaN gives the other operand, a tie (of zeros, too) the first."""
+        if a.operation == "const":
+            better = (b, a) if operation == "fmin" else (a, b)
+            return self.make("select", self.make("lt", *better), b, a)
+        not_worse = (a, b) if operation == "fmin" else (b, a)
+        other = b if b.operation == "const" else self.make("select", self.make("eq", b, b), b, a)
+        return self.make("select", self.make("le", *not_worse), a, other)
 
     def as_number(self, node: Node) -> Node:
         """Return 1 or 0 for a truth value."""

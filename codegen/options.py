@@ -15,15 +15,19 @@ class Options:
     ----------
     precision : Precision
         Type of every real number in the C.
-    target : str
-        Name of the machine the C is measured on: ``host``, ``cortex-m4``, ``cortex-m7`` or ``rv32``.
+    targets : tuple of str
+        Names of the machines the C is measured on, beside the host: ``cortex-m4``, ``cortex-m7``, ``rv32``.
     contract : bool
         Whether a product and a sum may become one fused operation.
     mathematics : {"own", "libm"}
         Whose ``sin``, ``exp`` ... the C calls: those that plantc emits (the same bits everywhere), or the C library's.
+    flash, ram : int
+        Bytes that the targets have; 0: as they stand in `TARGETS`.
     """
 
     precision: Precision = field(default_factory=lambda: Precision("double"))
-    target: str = "host"
+    targets: tuple[str, ...] = ("host",)
     contract: bool = False
     mathematics: str = "own"
+    flash: int = 0
+    ram: int = 0

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import platform
 import subprocess
 import tempfile
@@ -18,17 +17,24 @@ import numpy as np
 from ..symbolic.block import Block
 from ..symbolic.signals import Kind, Signal
 from .compiler import contraction_flag, find_compiler
-from .crosscheck import CrossCheck, cross_check, make_views
+from .coverage import measure_coverage
+from .crosscheck import CrossCheck, cross_check, make_probes, make_views
 from .emit import CText, emit, generator_version, templates
 from .findings import CheckResult, Findings, Mismatch
+from .folder import MEASURED, FolderError, check_folder_is_free, read_manifest, write_files, write_folder
+from .fuzz import fuzz_source
 from .layout import default_params
+from .on_target import chosen_targets, measure_targets
 from .options import Options
+from .packages import package_files
+from .report import report_html
 from .style import Precision
-from .vectors import vectors_source, wrapped
+from .traceability import trace_text
+from .vectors import choose_vectors, vectors_source, wrapped
 from .views import NativeView, View
 
-MEASURED = frozenset({"evidence.json"})
-"""Files that hold what was measured on a machine; all others are the same bytes anywhere."""
+VECTOR_STEPS = 100
+"""Length of the nominal trace from which vectors are chosen, however long that of the cross-check is."""
 
 NOT_CHECKED = [
     "whether the user's dynamics and sensors describe the real plant",
@@ -54,11 +60,16 @@ class Export:
     """What an export produced."""
 
     block: Block
-    precision: str
+    options: Options
     folder: Path
     files: dict[str, str]
     check: CrossCheck
     evidence: dict[str, Any]
+
+    @property
+    def precision(self) -> str:
+        """Type of real numbers in the C."""
+        return self.options.precision.name
 
     @property
     def passed(self) -> bool:
@@ -95,16 +106,30 @@ Measurement = Callable[[Draft], Findings]
 
 MEASUREMENTS: list[tuple[str, Measurement]] = [
     ("vectors", lambda draft: Findings([run_vectors(draft.block.name, draft.files)])),
+    ("coverage", lambda draft: _coverage(draft)),
+    ("targets", lambda draft: measure_targets(draft.block, draft.options, draft.text, draft.check)),
 ]
 """What every export that passed its cross-check is measured by, in this order: (what is being done, how)."""
 
 
-def build_files(block: Block, precision: str, check: CrossCheck) -> dict[str, str]:
-    """Return file name -> text of everything that follows from model and generator alone."""
-    text = emit(block, precision)
-    vectors, count = vectors_source(block, precision, check)
+def build_files(block: Block, options: Options | str = "double") -> dict[str, str]:
+    """Return path in the folder -> text of everything that follows from model and generator alone.
+
+    Nothing is checked and nothing measured: this is what `export` writes, and what `plantc check` compares with.
+
+    Parameters
+    ----------
+    block : Block
+        What is written.
+    options : Options, or {"double", "float"}
+        The choices.
+    """
+    chosen = options if isinstance(options, Options) else Options(Precision(options))
+    precision = chosen.precision.name
+    text = emit(block, precision, mathematics=chosen.mathematics)
+    vectors = choose_vectors(block, precision, _rare_calls(block, precision))
     name = block.name
-    context = {
+    context: dict[str, Any] = {
         "name": name,
         "upper": name.upper(),
         "version": generator_version(),
@@ -112,22 +137,36 @@ def build_files(block: Block, precision: str, check: CrossCheck) -> dict[str, st
         "params": bool(block.param_group().members),
     }
     entry = block.entries["step"] if "step" in block.entries else list(block.entries.values())[-1]
-    kind = Precision(precision)
-    inputs = _middle_text(entry.inputs, kind)
-    main = (
-        templates()
-        .get_template("example_main.c.j2")
-        .render(**context, entry=entry.name, inputs=inputs, outputs=bool(entry.outputs))
-    )
+    inputs = _middle_text(entry.inputs, chosen.precision)
+    context |= {"entry": entry.name, "inputs": inputs, "outputs": bool(entry.outputs)}
+    main = templates().get_template("example_main.c.j2").render(**context)
     files = {
-        f"{name}.h": text.header,
-        f"{name}.c": text.source,
-        "test_vectors.c": vectors,
-        "example_main.c": wrapped(main),
-        "CMakeLists.txt": templates().get_template("CMakeLists.txt.j2").render(**context),
+        f"src/{name}.h": text.header,
+        f"src/{name}.c": text.source,
+        "test/test_vectors.c": vectors_source(block, precision, vectors),
+        "examples/example_main.c": wrapped(main),
+        "verify/fuzz_main.c": fuzz_source(block, chosen.precision),
+        **package_files(block, chosen, context),
     }
-    files["manifest.json"] = json.dumps(_manifest(block, precision, text, files, count), indent=2) + "\n"
+    files["trace.json"] = trace_text(block, text, vectors.vectors)
+    manifest = _manifest(block, chosen, text, files, len(vectors.vectors))
+    files["manifest.json"] = json.dumps(manifest, indent=2) + "\n"
     return files
+
+
+def _coverage(draft: Draft) -> Findings:
+    return measure_coverage(
+        draft.block, draft.options.precision.name, draft.files, draft.text.provenance, draft.check.calls
+    )
+
+
+def _rare_calls(block: Block, precision: str) -> CrossCheck:
+    """Return calls from which the vectors are chosen, answered by the model's own C: those of a default cross-check."""
+    native = NativeView(block, precision)
+    probes = make_probes(block, precision, make_views(block, precision, native), VECTOR_STEPS, 0)
+    for probe in probes:
+        probe.answer = native.call(probe.entry, probe.memory, probe.inputs, probe.params)
+    return CrossCheck([], {}, probes)
 
 
 def export(
@@ -135,6 +174,8 @@ def export(
     out: Path | str,
     *,
     precision: str = "double",
+    mathematics: str = "own",
+    options: Options | None = None,
     steps: int = 100,
     progress: Callable[[str, int, int], None] | None = None,
     native: NativeView | None = None,
@@ -149,6 +190,10 @@ def export(
         Folder that gets a folder named after the block.
     precision : {"double", "float"}
         Type of real numbers in the C.
+    mathematics : {"own", "libm"}
+        Whose `sin`, `exp` ... the C calls: plantc's own (the same bits everywhere), or the C library's.
+    options : Options, optional
+        All choices; then `precision` and `mathematics` are not looked at.
     steps : int
         Length of the nominal trace of the cross-check.
     progress : callable, optional
@@ -165,20 +210,29 @@ def export(
     ------
     CompilerError
         If there is no C compiler.
+    TargetError
+        If a target is not known, its tools are missing, or the code does not fit it.
+    FolderError
+        If the folder cannot be written, or holds someone else's files.
     ExportError
         If a check failed. Nothing is written; what was there stays.
     """
     report = progress or (lambda what, done, total: None)
+    chosen = options or Options(Precision(precision), mathematics=mathematics)
+    precision = chosen.precision.name
+    folder = Path(out) / block.name
+    check_folder_is_free(folder)
+    chosen_targets(chosen)  # a missing tool is told before the work
     report("compile", 0, 1)
-    compiled = native or NativeView(block, precision)
+    compiled = native or NativeView(block, precision, contract=chosen.contract, mathematics=chosen.mathematics)
     views = make_views(block, precision, compiled)
     check = cross_check(
         block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)
     )
-    files = build_files(block, precision, check)
     if not check.passed:
         raise ExportError(failure_text(block, check), check)
-    draft = Draft(block, Options(Precision(precision)), compiled.text, files, check)
+    files = build_files(block, chosen)
+    draft = Draft(block, chosen, compiled.text, files, check)
     facts: dict[str, Any] = {}
     for done, (what, measure) in enumerate(MEASUREMENTS):
         report(what, done, len(MEASUREMENTS))
@@ -187,11 +241,12 @@ def export(
         facts.update(found.facts)
         if not check.passed:
             raise ExportError(failure_text(block, check), check)
-    evidence = {**_evidence(block, precision, check, compiled), **facts}
+    evidence = {**_evidence(block, chosen, check, compiled), **facts}
     files["evidence.json"] = json.dumps(evidence, indent=2) + "\n"
-    folder = Path(out) / block.name
+    report("report", 0, 1)
+    files["report.html"] = report_html(block, json.loads(files["manifest.json"]), evidence, check.calls)
     write_folder(folder, files)
-    return Export(block, precision, folder, files, check, evidence)
+    return Export(block, chosen, folder, files, check, evidence)
 
 
 def failure_text(block: Block, check: CrossCheck) -> str:
@@ -201,32 +256,19 @@ def failure_text(block: Block, check: CrossCheck) -> str:
     return f"{block.name}: the check {first.name!r} failed: {why}"
 
 
-def write_folder(folder: Path, files: dict[str, str]) -> None:
-    """Replace a folder by these files, whole or not at all. Other files that lie there stay."""
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as name:
-        fresh = Path(name)
-        for file, text in files.items():
-            (fresh / file).write_text(text)
-        folder.mkdir(exist_ok=True)
-        for file in files:
-            os.replace(fresh / file, folder / file)
-
-
 def run_vectors(name: str, files: dict[str, str]) -> CheckResult:
     """Compile the shipped vectors and the example, as a user would, and run them."""
     compiler = find_compiler()
     result = CheckResult("shipped vectors", True)
     with tempfile.TemporaryDirectory(prefix="plantc-") as folder_name:
         folder = Path(folder_name)
-        for file, text in files.items():
-            (folder / file).write_text(text)
-        for main in ("test_vectors.c", "example_main.c"):
-            program = compiler.program([folder / f"{name}.c", folder / main], folder / main.removesuffix(".c"))
+        write_files(folder, files)
+        for main in ("test/test_vectors.c", "examples/example_main.c"):
+            program = compiler.program([folder / f"src/{name}.c", folder / main], folder / Path(main).stem)
             done = subprocess.run([str(program)], capture_output=True, text=True, check=False, timeout=60)
-            if main == "test_vectors.c":
+            if main == "test/test_vectors.c":
                 result.calls = int(done.stdout.strip().split("\n")[-1].split(" ")[0]) if done.stdout.strip() else 0
-            if done.returncode != 0 and main == "test_vectors.c":
+            if done.returncode != 0 and main == "test/test_vectors.c":
                 result.passed = False
                 result.note = done.stdout.strip()[:500] or f"{main} ended with {done.returncode}"
     return result
@@ -248,53 +290,60 @@ class FolderCheck:
 
 
 def check_folder(
-    folder: Path, block: Block, *, steps: int = 100, progress: Callable[[str, int, int], None] | None = None
+    folder: Path,
+    block: Block,
+    *,
+    targets: tuple[str, ...] = ("host",),
+    steps: int = 100,
+    progress: Callable[[str, int, int], None] | None = None,
 ) -> FolderCheck:
-    """Compare a folder with what its model gives now, and run the checks on the C that lies there."""
+    """Compare a folder with what its model gives now, and run the checks on the C that lies there.
+
+    Parameters
+    ----------
+    folder : Path
+        What `export` wrote.
+    block : Block
+        What it was written from.
+    targets : tuple of str
+        Machines on which the C is run as well.
+    steps : int
+        Length of the nominal trace.
+    progress : callable, optional
+        Called with (what is being done, done, in all).
+
+    Raises
+    ------
+    CompilerError
+        If there is no C compiler, or a target's tools are missing.
+    """
     report = progress or (lambda what, done, total: None)
     manifest = read_manifest(folder)
     precision = manifest["precision"]
+    contract, mathematics = manifest.get("contract") == "on", manifest.get("mathematics", "own")
+    options = Options(Precision(precision), targets, contract, mathematics)
+    chosen_targets(options)
     name = block.name
     present = {file: (folder / file).read_text() for file in manifest["files"] if (folder / file).is_file()}
     missing = [file for file in manifest["files"] if file not in present]
-    native = None
-    if f"{name}.h" in present and f"{name}.c" in present and manifest["model"] == block.model_hash():
-        lying = CText(name, Precision(precision), present[f"{name}.h"], present[f"{name}.c"], {})
-        native = NativeView(block, precision, text=lying)
+    native = NativeView(block, precision, contract=contract, mathematics=mathematics)
+    header, source = present.get(f"src/{name}.h"), present.get(f"src/{name}.c")
+    if header is not None and source is not None and manifest["model"] == block.model_hash():
+        lying = CText(name, Precision(precision), header, source, {})
+        native = NativeView(block, precision, text=lying, contract=contract)
     views = make_views(block, precision, native)
     check = cross_check(
         block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)
     )
-    # the vectors follow from the model's own C, so that a fault in the folder cannot write itself into them
-    pristine = check if native is None else cross_check(block, precision, steps=steps)
-    expected = build_files(block, precision, pristine)
+    if set(targets) - {"host"}:
+        report("targets", 0, 1)
+        check.results += measure_targets(block, options, native.text, check).checks
+    expected = build_files(block, options)
     changed = [file for file, text in expected.items() if file in present and present[file] != text]
     stored = folder / "manifest.json"
     if stored.is_file() and stored.read_text() != expected["manifest.json"] and "manifest.json" not in changed:
         changed.append("manifest.json")
     return FolderCheck(folder, changed, missing, check)
-
-
-def read_manifest(folder: Path) -> dict[str, Any]:
-    """Return a folder's manifest.
-
-    Raises
-    ------
-    FileNotFoundError
-        If there is none, in a sentence.
-    """
-    path = folder / "manifest.json"
-    try:
-        manifest = json.loads(path.read_text())
-    except FileNotFoundError:
-        raise FileNotFoundError(
-            f"{folder}: there is no manifest.json; give a folder that plantc export wrote"
-        ) from None
-    except json.JSONDecodeError as error:
-        raise FileNotFoundError(f"{path}: not readable as JSON ({error}); export again") from None
-    if not isinstance(manifest, dict) or not {"name", "model", "precision", "files"} <= manifest.keys():
-        raise FileNotFoundError(f"{path}: not a manifest of plantc; export again")
-    return manifest
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -317,13 +366,15 @@ def _fields(signals: tuple[Signal, ...]) -> list[dict[str, Any]]:
     return answer
 
 
-def _manifest(block: Block, precision: str, text: CText, files: dict[str, str], vectors: int) -> dict[str, Any]:
+def _manifest(block: Block, options: Options, text: CText, files: dict[str, str], vectors: int) -> dict[str, Any]:
     return {
         "name": block.name,
         "doc": block.doc,
         "model": block.model_hash(),
         "generator": f"plantc {generator_version()}",
-        "precision": precision,
+        "precision": options.precision.name,
+        "contract": "on" if options.contract else "off",
+        "mathematics": options.mathematics,
         "equations": block.equations,
         "memory": _fields(block.memory_group().members),
         "parameters": _fields(block.param_group().members),
@@ -343,8 +394,9 @@ def _manifest(block: Block, precision: str, text: CText, files: dict[str, str], 
     }
 
 
-def _evidence(block: Block, precision: str, check: CrossCheck, native: View) -> dict[str, Any]:
+def _evidence(block: Block, options: Options, check: CrossCheck, native: View) -> dict[str, Any]:
     compiler = find_compiler()
+    precision = options.precision.name
     types = {
         "memory_bytes": native.memory().nbytes,
         "parameter_bytes": default_params(block, Precision(precision)).nbytes,
@@ -354,7 +406,11 @@ def _evidence(block: Block, precision: str, check: CrossCheck, native: View) -> 
         "model": block.model_hash(),
         "precision": precision,
         "passed": check.passed,
-        "compiler": {"label": compiler.label, "version": compiler.version(), "contraction": contraction_flag(False)},
+        "compiler": {
+            "label": compiler.label,
+            "version": compiler.version(),
+            "contraction": contraction_flag(options.contract),
+        },
         "machine": platform.machine(),
         **types,
         "checks": [result.as_dict() for result in check.results],
@@ -441,11 +497,13 @@ def design_residuals(block: Block) -> list[CheckResult]:
 
 
 __all__ = [
+    "MEASURED",
     "CheckResult",
     "DesignError",
     "Export",
     "ExportError",
     "FolderCheck",
+    "FolderError",
     "Mismatch",
     "build_files",
     "check_folder",

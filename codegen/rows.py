@@ -8,12 +8,13 @@ function leave gaps between them (where the measured pair goes), which lets a co
 
 from __future__ import annotations
 
+import math
 import re
 from collections import Counter
 
 from ..symbolic.kernels import SMALLEST_VARIANCE
 from ..symbolic.program import packed_index, packed_size
-from .style import Precision
+from .style import Precision, wrap_line
 
 
 def pair_helpers(prefix: str, precision: Precision, size: int) -> list[str]:
@@ -138,35 +139,69 @@ def pair_operations(size: int) -> Counter[str]:
     return Counter({word: size // 2 * len(re.findall(sign, text)) for word, sign in signs.items()})
 
 
-def bounded_helper(prefix: str, precision: Precision, size: int, floor: tuple[float, ...], limit: float) -> list[str]:
-    """Return the test that passes a covariance at once: sufficient, and what it does not pass is looked at closely."""
+def bounded_helper(
+    prefix: str, precision: Precision, size: int, floor: tuple[float, ...], limits: tuple[float, ...]
+) -> list[str]:
+    """Return the test that passes a covariance at once: sufficient, and what it does not pass is looked at closely.
+
+    Two comparisons for each element are avoided by sums: k elements of the same limit L pass if each is at most
+    L / 2k and their sum at least -L / 2, so that none is below -L / 2 - (k - 1) L / 2k > -L. Rounding of the sum is far
+    smaller than the L / 2k left. An interval analysis follows that backwards through the sum.
+    """
     real, packed = precision.name, packed_size(size)
-    lanes = next(k for k in (6, 4, 2, 5, 3, 7, 1) if packed % k == 0)
-    zero = precision.literal(0.0)
-    lines = [
+    diagonal = [packed_index(size, i, i) for i in range(size)]
+    clauses = [_true(f"{_element(at)} >= {precision.literal(low)}") for at, low in zip(diagonal, floor, strict=True)]
+    for group in _groups(diagonal, limits):
+        most = precision.literal(_rounded_down(0.99 * limits[group[0]]))
+        clauses.append(_true(f"{_sum(group)} <= {most}"))
+    for group in _groups([at for at in range(packed) if at not in diagonal], limits):
+        limit = limits[group[0]]
+        most = precision.literal(_rounded_down(limit / (2 * len(group))))
+        least = precision.literal(-_rounded_down(limit / 2))
+        clauses += [_true(f"{_element(at)} <= {most}") for at in group]
+        clauses.append(_true(f"{_sum(group)} >= {least}"))
+    return [
         "",
-        "/* Whether a covariance is within its bounds beyond doubt: a sum of magnitudes below a bound bounds each of them,",
-        " * and is not below it where one is NaN. */",
+        "/* Whether a covariance is within its bounds beyond doubt. Elements that are small, and whose sum is not far below",
+        " * zero, are not far below zero themselves. False for NaN. */",
         f"static bool {prefix}_is_bounded(const {real} covariance[{packed}])",
         "{",
-        *[f"    {real} sum_{k} = {zero};" for k in range(lanes)],
-        "",
-        f"    for (uint32_t i = 0U; i < {packed}U; i = i + {lanes}U)",
-        "    {",
-        *[
-            f"        sum_{k} = sum_{k} + {precision.function('fabs')}(covariance[i{f' + {k}U' if k else ''}]);"
-            for k in range(lanes)
-        ],
-        "    }",
+        f"    return {clauses[0]}",
+        *[line for clause in clauses[1:-1] for line in wrap_line(f"&& {clause}", " " * 11)],
+        *wrap_line(f"&& {clauses[-1]};", " " * 11),
+        "}",
     ]
-    terms = [f"sum_{k}" for k in range(lanes)]
-    while len(terms) > 1:
-        terms = [f"({' + '.join(terms[k : k + 2])})" for k in range(0, len(terms), 2)]
-    total = terms[0]
-    lines.append(f"    return ({total} <= {precision.literal(limit)})")
-    for i in range(size):
-        at = packed_index(size, i, i)
-        lines.append(f"           && (covariance[{at}] >= {precision.literal(floor[i])})")
-    lines[-1] += ";"
-    lines.append("}")
-    return lines
+
+
+_LONGEST_SUM = 8
+
+
+def _groups(elements: list[int], limits: tuple[float, ...]) -> list[list[int]]:
+    """Return elements of the same limit in groups: short ones, so that all their values fit into registers."""
+    by_limit: dict[float, list[int]] = {}
+    for at in elements:
+        by_limit.setdefault(limits[at], []).append(at)
+    return [
+        own[start : start + _LONGEST_SUM] for own in by_limit.values() for start in range(0, len(own), _LONGEST_SUM)
+    ]
+
+
+def _element(at: int) -> str:
+    return f"covariance[{at}]"
+
+
+def _true(text: str) -> str:
+    return f"(({text}) == true)"
+
+
+def _sum(group: list[int]) -> str:
+    text = _element(group[0])
+    for k, at in enumerate(group[1:], start=1):
+        text = f"{text} + {_element(at)}" if k == 1 else f"({text}) + {_element(at)}"
+    return f"({text})" if len(group) > 1 else text
+
+
+def _rounded_down(value: float) -> float:
+    """Return the positive number with two digits that is not above `value`."""
+    power = math.floor(math.log10(value)) - 1
+    return float(f"{math.floor(value / 10.0**power)}e{power}")

@@ -1,4 +1,4 @@
-"""Test vectors that ship with the C: a nominal sequence, and one call for each status that was reached."""
+"""Test vectors that ship with the C: a nominal sequence, and calls that reach every other statement and status."""
 
 from __future__ import annotations
 
@@ -8,10 +8,12 @@ from typing import Any
 import numpy as np
 
 from ..symbolic.block import Block
-from ..symbolic.signals import Kind, Signal
+from ..symbolic.program import Visit
+from ..symbolic.signals import Kind, Signal, Status
 from .crosscheck import CrossCheck, FrozenStream, Probe, default_scenario
 from .emit import generator_version, templates
 from .layout import fill, flatten
+from .selection import Feature, added, chosen, crafted, features, reachable
 from .style import Precision
 from .views import Answer, InterpretView, NativeView, Record, View
 
@@ -22,7 +24,7 @@ TOLERANCE = {"double": 1e-6, "float": 2e-3}
 
 @dataclass
 class Vector:
-    """One call with what it must give. Memories are positions in a table."""
+    """One call with what it must give, and what ran in it. Memories are positions in a table."""
 
     entry: str
     start: int
@@ -31,6 +33,7 @@ class Vector:
     expected: int
     outputs: int
     status: str
+    visits: tuple[Visit, ...] = ()
 
 
 class VectorTable:
@@ -58,7 +61,7 @@ class VectorTable:
             table.append(text)
         return table.index(text)
 
-    def add(self, probe: Probe, after: Record, outputs: Record, status: str) -> None:
+    def add(self, probe: Probe, after: Record, outputs: Record, answer: Answer) -> None:
         """Add a call; the records are rounded already."""
         entry = self.block.entries[probe.entry]
         memory = self.block.memory_group().members
@@ -70,7 +73,8 @@ class VectorTable:
                 self._position(self.params, self.text(self.block.param_group().members, probe.params)),
                 self._position(self.memories, self.text(memory, after)),
                 self._position(self.outputs[probe.entry], self.text(entry.outputs, outputs)) if entry.outputs else 0,
-                status,
+                answer.status.name,
+                answer.visits,
             )
         )
 
@@ -101,8 +105,8 @@ class VectorTable:
         return self.precision.literal(float(f"{number:.{self.digits - 1}e}"))
 
 
-def vectors_source(block: Block, precision: str, check: CrossCheck) -> tuple[str, int]:
-    """Return the C text of the vectors with their runner, and how many there are.
+def choose_vectors(block: Block, precision: str, check: CrossCheck) -> VectorTable:
+    """Return the vectors: a nominal sequence, then calls that reach every other statement and every other status.
 
     Parameters
     ----------
@@ -111,10 +115,9 @@ def vectors_source(block: Block, precision: str, check: CrossCheck) -> tuple[str
     precision : {"double", "float"}
         Of the C.
     check : CrossCheck
-        A finished cross-check: where calls for the rarer statuses are taken from.
+        Whose calls are candidates; what none of them reaches, calls crafted for it may.
     """
-    kind = Precision(precision)
-    table = VectorTable(block, kind)
+    table = VectorTable(block, Precision(precision))
     view = InterpretView(block)
     shape = NativeView(block, precision)
     scenario = block.scenario or default_scenario(block)
@@ -122,28 +125,56 @@ def vectors_source(block: Block, precision: str, check: CrossCheck) -> tuple[str
     params = shape.params()
     sizes = _sizes(block, shape, view, params)
     memory = shape.memory()
-    seen: set[tuple[str, str]] = set()
+    seen: frozenset[Feature] = frozenset()
     for k, (entry, values) in enumerate(scenario.calls(stream, LONGEST)):
         inputs = table.rounded(shape.inputs(entry, values))
-        probe = Probe("vectors", k, entry, memory, inputs, params)
-        after = _add(table, view, shape, probe)
-        seen.add((entry, table.vectors[-1].status))
-        memory = after
-    for probe in check.calls:
-        if probe.answer is None or (probe.entry, probe.answer.status.name) in seen:
-            continue
-        clean = Probe(
-            "vectors",
-            0,
-            probe.entry,
-            table.rounded(probe.memory),
-            table.rounded(probe.inputs),
-            table.rounded(probe.params),
-        )
-        if not _is_sturdy((view, shape), clean, probe.answer.status, sizes, precision):
-            continue
-        seen.add((probe.entry, probe.answer.status.name))
-        _add(table, view, shape, clean)
+        memory = _add(table, view, shape, Probe("vectors", k, entry, memory, inputs, params))
+        vector = table.vectors[-1]
+        seen |= features(entry, Status[vector.status], vector.visits)
+
+    def shipped(probe: Probe) -> Probe:
+        memory, inputs, given = (table.rounded(item) for item in (probe.memory, probe.inputs, probe.params))
+        return Probe("vectors", 0, probe.entry, memory, inputs, given)
+
+    def run(probe: Probe) -> Answer:
+        return _answer(view, probe, 0.0)
+
+    def usable(probe: Probe) -> bool:
+        return _is_sturdy((view, shape), probe, run(probe).status, sizes, precision)
+
+    # the nominal sequence shows what good nominal calls reach
+    calls = [
+        probe
+        for probe in check.calls
+        if probe.answer is not None and (probe.trace != "nominal" or probe.answer.status != Status.OK)
+    ]
+    picked, seen = chosen((shipped(probe) for probe in calls), seen, run, usable)
+    missing = reachable(block) - seen
+    rare = (shipped(probe) for probe in crafted(block, shape, check.calls, missing))
+    picked += added(rare, missing, run, usable)
+    for probe in picked:
+        _add(table, view, shape, probe)
+    return table
+
+
+def vectors_source(block: Block, precision: str, table: VectorTable) -> str:
+    """Return the C text of vectors with their runner.
+
+    Parameters
+    ----------
+    block : Block
+        The block.
+    precision : {"double", "float"}
+        Of the C.
+    table : VectorTable
+        What `choose_vectors` chose.
+    """
+    kind = Precision(precision)
+    sizes = _sizes(block, NativeView(block, precision), InterpretView(block), NativeView(block, precision).params())
+    memory = _comparisons(block.memory_group().members, "state", "wanted")
+    called = {vector.entry for vector in table.vectors}
+    outputs = {entry.name: _comparisons(entry.outputs, "answer", "expected") for entry in block.entries.values()}
+    compared = memory + [item for name in called for item in outputs[name]]
     text = (
         templates()
         .get_template("test_vectors.c.j2")
@@ -164,16 +195,18 @@ def vectors_source(block: Block, precision: str, check: CrossCheck) -> tuple[str
                     entry.name,
                     table.inputs[entry.name],
                     table.outputs[entry.name],
-                    _comparisons(entry.outputs, "answer", "expected"),
+                    outputs[entry.name],
                 )
                 for entry in block.entries.values()
             ],
-            memory_comparisons=_comparisons(block.memory_group().members, "state", "wanted"),
+            memory_comparisons=memory,
+            compares_reals=any(kind not in ("status", "count") for kind, _, _, _ in compared),
             scales=table.text(block.memory_group().members, table.rounded(sizes)),
             vectors=table.vectors,
+            statuses=[(status.name, int(status)) for status in Status],
         )
     )
-    return wrapped(text), len(table.vectors)
+    return wrapped(text)
 
 
 def _add(table: VectorTable, view: View, shape: View, probe: Probe) -> Record:
@@ -183,7 +216,7 @@ def _add(table: VectorTable, view: View, shape: View, probe: Probe) -> Record:
     outputs = table.rounded(fill(shape.outputs(probe.entry), flatten(answer.outputs)))
     if answer.status < 0:
         after = probe.memory
-    table.add(probe, after, outputs, answer.status.name)
+    table.add(probe, after, outputs, answer)
     return after
 
 
@@ -202,7 +235,7 @@ def _is_sturdy(views: tuple[View, View], probe: Probe, status: Any, sizes: Recor
             if other.status != status:
                 return False
             for name, value in wanted.items():
-                if value.dtype.kind == "f":
+                if value.dtype.kind == "f" and first.status >= 0:
                     allowed = 0.05 * TOLERANCE[precision] * (np.abs(value) + flatten(sizes)[name].astype(float))
                     if not np.all(np.abs(flatten(other.memory)[name].astype(float) - value) <= allowed):
                         return False

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..symbolic.block import Block
-from ..symbolic.program import Place, run_entry
+from ..symbolic.program import Place, Visit, run_entry
 from ..symbolic.signals import Status
 from .compiler import library_for
 from .emit import CText, emit
@@ -41,12 +41,15 @@ class Answer:
         After the call.
     margin : float
         How near the call came to a switch (relative); infinite where the view does not tell.
+    visits : tuple of Visit
+        The statements that ran, where the view tells.
     """
 
     status: Status
     memory: Record
     outputs: Record
     margin: float = float("inf")
+    visits: tuple[Visit, ...] = ()
 
 
 class View:
@@ -65,24 +68,35 @@ class View:
     def __init__(self, block: Block, precision: str = "double"):
         self.block = block
         self.precision = Precision(precision)
+        self._blank: dict[str, Record] = {}
 
     # -- records ------------------------------------------------------------------------------------------------------
 
     def params(self, **values: Any) -> Record:
         """Return a parameter record: defaults, with the given fields replaced."""
-        return fill(default_params(self.block, self.precision), _dotted(values))
+        if "params" not in self._blank:
+            self._blank["params"] = default_params(self.block, self.precision)
+        return fill(self._blank["params"].copy(), _dotted(values))
 
     def memory(self, **values: Any) -> Record:
         """Return a memory record of zeros with the given fields set."""
-        return fill(np.zeros((), dtype=memory_dtype(self.block, self.precision)), _dotted(values))
+        if "memory" not in self._blank:
+            self._blank["memory"] = np.zeros((), dtype=memory_dtype(self.block, self.precision))
+        return fill(self._blank["memory"].copy(), _dotted(values))
 
     def inputs(self, entry: str, values: Mapping[str, Any]) -> Record:
         """Return an input record of zeros with the given fields set."""
-        return fill(np.zeros((), dtype=inputs_dtype(self.block.entries[entry], self.precision)), values)
+        key = f"{entry} in"
+        if key not in self._blank:
+            self._blank[key] = np.zeros((), dtype=inputs_dtype(self.block.entries[entry], self.precision))
+        return fill(self._blank[key].copy(), values)
 
     def outputs(self, entry: str) -> Record:
         """Return an output record of zeros."""
-        return np.zeros((), dtype=outputs_dtype(self.block.entries[entry], self.precision))
+        key = f"{entry} out"
+        if key not in self._blank:
+            self._blank[key] = np.zeros((), dtype=outputs_dtype(self.block.entries[entry], self.precision))
+        return self._blank[key].copy()
 
     # -- running ------------------------------------------------------------------------------------------------------
 
@@ -153,14 +167,15 @@ class InterpretView(View):
                 values[Place("memory", name)] = value.astype(float) if value.dtype.kind == "f" else value
         for name, value in flatten(inputs).items():
             values[Place("in", name)] = value
-        outcome = run_entry(self.block, program, values, flatten(params), self.patches)
+        visits: list[Visit] = []
+        outcome = run_entry(self.block, program, values, flatten(params), self.patches, visits)
         if outcome.status < 0:
-            return Answer(outcome.status, memory.copy(), self.outputs(entry), outcome.margin)
+            return Answer(outcome.status, memory.copy(), self.outputs(entry), outcome.margin, tuple(visits))
         answer = self.memory() if program.checks_params else memory.copy()
         outputs = self.outputs(entry)
         fill(answer, {place.name: value for place, value in outcome.values.items() if place.space == "next"})
         fill(outputs, {place.name: value for place, value in outcome.values.items() if place.space == "out"})
-        return Answer(outcome.status, answer, outputs, outcome.margin)
+        return Answer(outcome.status, answer, outputs, outcome.margin, tuple(visits))
 
 
 class ReferenceView(View):
@@ -203,6 +218,10 @@ class NativeView(View):
         C to use instead of what `emit` gives: for tests that plant a fault.
     contract : bool
         Whether a product and a sum may be fused.
+    library : Path, optional
+        A library that was built already; then nothing is compiled.
+    mathematics : {"own", "libm"}
+        Whose `sin`, `exp` ... the emitted C calls.
 
     Raises
     ------
@@ -212,11 +231,21 @@ class NativeView(View):
 
     name = "native"
 
-    def __init__(self, block: Block, precision: str = "double", *, text: CText | None = None, contract: bool = False):
+    def __init__(
+        self,
+        block: Block,
+        precision: str = "double",
+        *,
+        text: CText | None = None,
+        contract: bool = False,
+        library: Path | None = None,
+        mathematics: str = "own",
+    ):
         super().__init__(block, precision)
-        self.text = text or emit(block, precision)
+        self.text = text or emit(block, precision, mathematics=mathematics)
         name = block.name
-        self.path: Path = library_for({f"{name}.h": self.text.header, f"{name}.c": self.text.source}, contract=contract)
+        sources = {f"{name}.h": self.text.header, f"{name}.c": self.text.source}
+        self.path: Path = library or library_for(sources, contract=contract)
         self.library = ctypes.CDLL(str(self.path))
         self._has_params = bool(block.param_group().members)
         self._functions: dict[str, Any] = {}

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from ..symbolic.block import Block
@@ -41,6 +41,8 @@ from ..symbolic.program import (
 )
 from ..symbolic.signals import Kind, Signal, Status
 from .graph import Graph, Node
+from .mathematics import EXACT, mathematics_name
+from .provenance import Genealogy, Parent, TracedLines
 from .rows import pair_operations
 from .style import WIDTH, Precision, comment_lines, wrap_line
 
@@ -60,25 +62,28 @@ class Style:
     """Choices of the emitter that a target makes.
 
     `rows_per_scope` measurement rows share a scope before the covariance is stored: 1 is best without fused
-    multiply-add, 4 with it (research/codegen_performance.md, section 9).
+    multiply-add, 4 with it (research/codegen_performance.md, section 9). `mathematics` says whose `sin`, `exp` ... are
+    called: plantc's ``own``, or those of the C library (``libm``).
     """
 
     precision: Precision
     rows_per_scope: int
+    mathematics: str = "own"
 
 
-def style_for(precision: Precision) -> Style:
+def style_for(precision: Precision, mathematics: str = "own") -> Style:
     """Return the emitter's choices for a precision: single is for FPUs with fused multiply-add."""
-    return Style(precision, 4 if precision.is_float else 1)
+    return Style(precision, 4 if precision.is_float else 1, mathematics)
 
 
 @dataclass
 class CoreText:
     """A core function and what it needs."""
 
-    lines: list[str]
+    lines: TracedLines
     operations: Counter[str]
     functions: set[str]
+    own: set[str] = field(default_factory=set)
 
 
 def core_name(prefix: str, entry: Entry) -> str:
@@ -104,18 +109,23 @@ class CoreWriter:
         self.precision = style.precision
         self.upper = root.upper()
         self.graph = Graph()
-        self.lines: list[str] = []
+        path = prefix.removeprefix(root).removeprefix("_")
+        self.genealogy = Genealogy(block, entry, f"{path}." if path else "")
+        self.lines = TracedLines()
+        self.opened: list[Parent | None] = []
         self.indent = "    "
         self.names: list[set[str]] = [set(_RESERVED) | {signal.name for signal in self._arguments()}]
         self.bound: dict[Node, str] = {}
         self.fixed: dict[Place, list[Node]] = {}
         self.arrays: dict[Place, int] = {}
         self.declared: list[str] = []
+        self.guarding = False
         self.inside: dict[Place, str] = {}
         self.arrays_inside: dict[Place, int] = {}
         self.versions: Counter[Place] = Counter()
         self.operations: Counter[str] = Counter()
         self.functions: set[str] = set()
+        self.own: set[str] = set()
         self.sizes = {signal.name: signal for signal in block.memory_signals_flat()}
 
     # -- the function -------------------------------------------------------------------------------------------------
@@ -149,7 +159,8 @@ class CoreWriter:
         else:
             self._plain()
         head = wrap_signature(self.signature())
-        return CoreText([*head, "{", *self.lines, "}"], self.operations, self.functions)
+        frame = self.genealogy.parent("entry", self.entry.doc or f"the entry {self.entry.name}")
+        return CoreText(TracedLines([*head, "{", *self.lines, "}"], frame), self.operations, self.functions, self.own)
 
     def _plain(self) -> None:
         entry = self.entry
@@ -163,13 +174,15 @@ class CoreWriter:
         untouched = self._untouched(body)
         self._statements(body)
         text = self.lines
-        self.lines = []
+        self.lines = TracedLines(parent=self._bookkeeping("numbers that stages hand on"))
         for place, size in self.arrays.items():
             self._line(f"{self.precision.name} {place.name}[{size}];")
         for text_of in self.declared:
             self._line(text_of)
+        self._bookkeeping("the status to be returned")
         self._line(f"{self.root}_status_t status = {u}_OK;")
         self._line("")
+        self._bookkeeping("fields that the entry leaves alone are carried over")
         for signal in untouched:
             self._copy_field(signal)
         if untouched:
@@ -179,6 +192,7 @@ class CoreWriter:
         if not self.entry.checks_params and not any("before" in line for line in (*self.lines, *text)):
             self._line("(void)before;")
         self.lines += text
+        self._bookkeeping("the status to be returned")
         self._line("return status;")
 
     def _untouched(self, body: Sequence[Statement]) -> list[Signal]:
@@ -213,6 +227,11 @@ class CoreWriter:
 
     # -- text helpers -------------------------------------------------------------------------------------------------
 
+    def _bookkeeping(self, what: str) -> Parent:
+        """Have the lines that follow belong to bookkeeping of a named kind."""
+        self.lines.parent = self.genealogy.parent("bookkeeping", what)
+        return self.lines.parent
+
     def _line(self, text: str) -> None:
         if not text:
             if self.lines and self.lines[-1] and not self.lines[-1].strip().endswith("{"):
@@ -224,6 +243,7 @@ class CoreWriter:
         if head:
             self._line(head)
         self._line("{")
+        self.opened.append(self.lines.parent)
         self.indent += "    "
         self.names.append(set())
 
@@ -232,6 +252,7 @@ class CoreWriter:
         self.indent = self.indent[:-4]
         if self.lines and not self.lines[-1]:
             self.lines.pop()
+        self.lines.parent = self.opened.pop()
         self._line("}")
 
     def _comment(self, text: str) -> None:
@@ -254,6 +275,7 @@ class CoreWriter:
         while index < len(body):
             statement = body[index]
             rest = body[index + 1 :]
+            self.lines.parent = self.genealogy.of(statement)
             if isinstance(statement, AllStatesUpdate):
                 self._all_states(statement)
                 index += 1
@@ -422,7 +444,7 @@ class CoreWriter:
                 return self._within(condition)
             case Compare():
                 left, right = self._comparable(condition.left, condition.right)
-                return [f"({left} {condition.relation} {right})"]
+                return [self._compared(f"{left} {condition.relation} {right}")]
             case IsSet():
                 signal = self._signal(condition.flag.place)
                 slot = self._operand(condition.flag)
@@ -444,23 +466,29 @@ class CoreWriter:
         clauses = []
         for k, (low, high) in enumerate(zip(condition.low, condition.high, strict=True)):
             slot = self._operand(Element(condition.place, condition.first + k))
-            if low == -high:
-                clauses.append(f"({self._call('fabs', slot)} <= {self.precision.literal(high)})")
-            else:
-                clauses.append(f"({slot} >= {self.precision.literal(low)})")
-                clauses.append(f"({slot} <= {self.precision.literal(high)})")
+            clauses.append(self._compared(f"{slot} >= {self.precision.literal(low)}"))
+            clauses.append(self._compared(f"{slot} <= {self.precision.literal(high)}"))
         return clauses
+
+    def _compared(self, text: str) -> str:
+        """Return a comparison as a clause; one that guards a commit also tells the analyser that it is false for NaN."""
+        return f"(({text}) == true)" if self.guarding else f"({text})"
 
     def _call(self, name: str, *arguments: str) -> str:
         function = self.precision.function(name)
         self.functions.add(function)
+        if self.style.mathematics == "own" and name not in EXACT:
+            self.own.add(name)
+            function = mathematics_name(self.root, name)
         return f"{function}({', '.join(arguments)})"
 
     def _refuse(self, statement: Refuse, rest: Sequence[Statement]) -> None:
         if self.lines and self.lines[-1]:
             self._line("")
         self._comment(statement.comment)
+        self.guarding = True
         self._condition_head("if (!", statement.unless, ")")
+        self.guarding = False
         self._open()
         self._line(f"status = {self.upper}_{statement.status.name};")
         self._close()
@@ -476,7 +504,7 @@ class CoreWriter:
         self._comment("judge, then commit")
         self._open(f"if (!{self.prefix}_is_bounded({base}))")
         self._line(f"status = {self.prefix}_hold_variances({base});")
-        self.functions |= {"hold_variances", self.precision.function("fabs")}
+        self.functions.add("hold_variances")
         self._close()
         self.versions[statement.target] += 1
 
@@ -492,7 +520,8 @@ class CoreWriter:
         self._line("")
         for line in kernel.comment:
             self._comment(line)
-        self._loop(size, f"work.{first.delta.name}[i] = {zero};")
+        for i in range(size):  # no loop: gcc's analyzer takes it to leave elements unset
+            self._line(f"work.{first.delta.name}[{i}] = {zero};")
         self._line(f"work.{first.nis.name} = {zero};")
         spare, target = "spare_covariance", self._base(first.target)
         source = self._base(first.p)
@@ -544,7 +573,9 @@ class CoreWriter:
         inputs = [[node for place, size in places for node in self._read(place, size)] for places in statement.reads]
         outputs = self.graph.from_tape(tape(statement.function), inputs)
         stores: list[tuple[Slot | None, Node]] = []
-        for values, places, names in zip(outputs, statement.writes, statement.names, strict=True):
+        parents: list[Parent] = []
+        for k, (values, places, names) in enumerate(zip(outputs, statement.writes, statement.names, strict=True)):
+            parents += [self.genealogy.of_output(statement, k, i) for i in range(len(values))]
             start = 0
             for place, size in places:
                 own = values[start : start + size]
@@ -561,7 +592,7 @@ class CoreWriter:
             self._line("")
         for line in statement.comment:
             self._comment(line)
-        self._emit(stores)
+        self._emit(stores, parents)
         for places in statement.writes:
             for place, _ in places:
                 self.versions[place] += 1
@@ -589,6 +620,7 @@ class CoreWriter:
                         pending[place, i] = self.graph.const(node) if isinstance(node, float) else node
             comments += kernel.comment
         self._line("")
+        self.lines.parent = self.genealogy.of_kernels(group)
         for line in comments:
             self._comment(line)
         outer = dict(self.bound)
@@ -599,10 +631,11 @@ class CoreWriter:
         for place, _ in pending:
             self.versions[place] += 1
 
-    def _emit(self, stores: Sequence[tuple[Slot | None, Node]]) -> None:
+    def _emit(self, stores: Sequence[tuple[Slot | None, Node]], parents: Sequence[Parent] = ()) -> None:
         """Print values in order: constants on lines of their own, then the stores.
 
-        An element that is both read and overwritten is read first.
+        An element that is both read and overwritten is read first. A line that several values need belongs to the parent
+        of the first.
         """
         uses: Counter[Node] = Counter()
         seen: set[Node] = set()
@@ -618,11 +651,15 @@ class CoreWriter:
                 uses[argument] += 1
                 stack.append(argument)
         loads = {node.element[:2]: node for node in seen if node.operation == "load"}
-        for slot, node in stores:
+        for k, (slot, node) in enumerate(stores):
+            if parents:
+                self.lines.parent = parents[k]
             if slot is None:
                 if node.operation not in ("const", "load"):
                     self._bind(node, uses)
                 continue
+            if node.operation == "load" and node.element == (*slot, self.versions[slot[0]]):
+                continue  # it is there already
             text = self._expression(node, uses, top=True)
             shadowed = loads.get((slot[0], slot[1]))
             if shadowed is not None and shadowed not in self.bound and uses[shadowed] > 0:
@@ -740,69 +777,82 @@ class CoreWriter:
         p, u = self.prefix, self.upper
         attempts = [item for item in walk(self.entry.body) if isinstance(item, Attempt)]
         depth = max((len(item.calls) for item in attempts), default=1)
-        self._line(f"{p}_state_t work[{2 + max(0, depth - 1)}];")
+        self._bookkeeping("the latest memory, and spare ones for what may be refused")
+        self._line(f"{p}_state_t work[{max(1, depth)}];")
         self._line(f"{p}_state_t *latest = &work[0];")
         if attempts:
-            self._line(f"{p}_state_t *spare = &work[1];")
+            self._line(f"{p}_state_t *spare = after;")
         first, *rest = self.entry.body
         assert isinstance(first, Call)
+        self.lines.parent = self.genealogy.of(first)
         self._line(f"{self.root}_status_t status = {self.call_text(first, 'before', 'latest')};")
         self._line("")
         self._open(f"if (status >= {u}_OK)")
-        for statement in rest:
-            self._sequenced(statement)
+        self._all_sequenced(rest, more=False)
+        self.lines.parent = self.genealogy.parent("commit", "the latest memory is the answer")
+        if attempts:
+            self._open("if (latest != after)")
         self._line("*after = *latest;")
+        if attempts:
+            self._close()
         self._close()
+        self._bookkeeping("the status to be returned")
         self._line("return status;")
 
-    def _sequenced(self, statement: Statement) -> None:
+    def _all_sequenced(self, statements: Sequence[Statement], *, more: bool) -> None:
+        """Write statements one after the other; `more`: whether attempts follow after them."""
+        for k, statement in enumerate(statements):
+            later = any(isinstance(item, Attempt) for item in walk(statements[k + 1 :]))
+            self._sequenced(statement, more=more or later)
+
+    def _sequenced(self, statement: Statement, *, more: bool) -> None:
+        self.lines.parent = self.genealogy.of(statement)
         if isinstance(statement, When):
             self._comment(statement.comment)
             self._condition_head("if ", _on_latest(statement.condition), "")
             self._open()
-            for item in statement.then:
-                self._sequenced(item)
+            self._all_sequenced(statement.then, more=more)
             self._close()
             if statement.otherwise:
                 self._open("else")
-                for item in statement.otherwise:
-                    self._sequenced(item)
+                self._all_sequenced(statement.otherwise, more=more)
                 self._close()
         elif isinstance(statement, Attempt):
-            self._attempt(statement)
+            self._attempt(statement, more=more)
         else:
             self._one(statement)
 
-    def _attempt(self, statement: Attempt) -> None:
+    def _attempt(self, statement: Attempt, *, more: bool) -> None:
         p, u = self.prefix, self.upper
         calls = statement.calls
         self._line(
-            f"{self.root}_status_t own = {self.call_text(calls[0], 'latest', 'spare' if len(calls) == 1 else '&work[2]')};"
+            f"{self.root}_status_t own = {self.call_text(calls[0], 'latest', 'spare' if len(calls) == 1 else '&work[1]')};"
         )
         if len(calls) > 1:
             self._line(f"{self.root}_status_t highest = status;")
         self._line("")
         for k, call in enumerate(calls[1:], start=1):
             last = k == len(calls) - 1
-            source, target = f"&work[{k + 1}]", "spare" if last else f"&work[{k + 2}]"
+            source, target = f"&work[{k}]", "spare" if last else f"&work[{k + 1}]"
             self._open(f"if (own >= {u}_OK)")
             self._line(f"highest = {self.root}_higher(highest, own);")
             self._line(f"own = {self.call_text(call, source, target)};")
             self._close()
         self._line(f"out->{statement.status.name} = own;")
         self._open(f"if (own >= {u}_OK)")
-        self._line(f"{p}_state_t *const taken = spare;")
-        self._line("")
-        self._line("spare = latest;")
-        self._line("latest = taken;")
+        if more:
+            self._line(f"{p}_state_t *const taken = spare;")
+            self._line("")
+            self._line("spare = latest;")
+            self._line("latest = taken;")
+        else:
+            self._line("latest = spare;")
         self._line(f"status = {self.root}_higher({'highest' if len(calls) > 1 else 'status'}, own);")
         self.functions.add("higher")
-        for item in statement.accepted:
-            self._sequenced(item)
+        self._all_sequenced(statement.accepted, more=more)
         self._close()
         self._open("else")
-        for item in statement.on_refused:
-            self._sequenced(item)
+        self._all_sequenced(statement.on_refused, more=more)
         self._close()
 
 

@@ -1,8 +1,9 @@
-"""The command line: derive, export, check, demo."""
+"""The command line: derive, export, check, audit, demo."""
 
 from __future__ import annotations
 
 import json
+import re
 import sys
 import time
 import traceback
@@ -16,9 +17,12 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from . import models
+from .codegen.audit import AUDITS, AuditError, AuditResult, audit_folder
 from .codegen.compiler import CompilerError
 from .codegen.emit import generator_version
 from .codegen.findings import CheckResult
+from .codegen.mathematics import CHOICES
+from .codegen.options import Options
 from .codegen.package import (
     DesignError,
     Export,
@@ -29,6 +33,8 @@ from .codegen.package import (
     read_manifest,
     with_design,
 )
+from .codegen.style import Precision
+from .codegen.targets import TARGETS
 from .models import UsageError
 from .symbolic import Block, ModelError
 
@@ -82,11 +88,21 @@ class Session:
 
 def _sentence(error: Exception) -> str:
     """Return what the user reads of an error that stops a command."""
-    if isinstance(error, (UsageError, ModelError, DesignError, CompilerError)):
+    if isinstance(error, (UsageError, ModelError, DesignError, CompilerError, AuditError)):
         return str(error)
     if isinstance(error, OSError):
         return f"{error.filename}: {error.strerror}" if error.filename and error.strerror else str(error)
     return f"plantc itself failed ({type(error).__name__}: {error}); run again with --debug and report it"
+
+
+def _size(ctx: click.Context, param: click.Parameter, value: str) -> int:
+    """Return bytes from a number with or without K or M behind it; 0 where nothing is given."""
+    if not value:
+        return 0
+    found = re.fullmatch(r"([1-9]\d{0,9})([KkMm]?)", value)
+    if found is None:
+        raise click.BadParameter(f"{value!r} is no size; give bytes, or a number with K or M, such as 128K")
+    return int(found[1]) * {"": 1, "K": 1024, "M": 1024 * 1024}[found[2].upper()]
 
 
 class _Commands(click.Group):
@@ -113,6 +129,17 @@ def _common(function: Callable[..., Any]) -> Callable[..., Any]:
     ):
         function = option(function)
     return function
+
+
+_target = click.option(
+    "--target",
+    "targets",
+    type=click.Choice(list(TARGETS)),
+    multiple=True,
+    default=["host"],
+    show_default=True,
+    help="Machine the C is run on as well; may be given several times.",
+)
 
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
@@ -209,16 +236,39 @@ def _derived_text(answer: dict[str, Any]) -> list[str]:
     "--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace."
 )
 @click.option("--redesign", is_flag=True, help="Design the numbers of design.json anew.")
+@_target
+@click.option(
+    "--contract",
+    type=click.Choice(["on", "off"]),
+    default="off",
+    show_default=True,
+    help="Whether a product and a sum may become one fused operation.",
+)
+@click.option(
+    "--mathematics",
+    type=click.Choice(CHOICES),
+    default="own",
+    show_default=True,
+    help="Whose sin, exp ... the C calls: plantc's own, the same bits everywhere, or the C library's.",
+)
+@click.option(
+    "--flash",
+    callback=_size,
+    default="",
+    metavar="BYTES",
+    help="Flash of the target, as 128K or 1M; default the target's own.",
+)
+@click.option("--ram", callback=_size, default="", metavar="BYTES", help="RAM of the target, likewise.")
 @_common
 def export_command(
-    model: str, out: Path, precision: str, steps: int, redesign: bool, as_json: bool, debug: bool
+    model: str, out: Path, precision: str, steps: int, redesign: bool, as_json: bool, debug: bool, **machine: Any
 ) -> None:
     """Write C for the blocks of MODEL into OUT/BLOCK/, compiled and cross-checked; nothing is written if a check fails."""
     session = Session(as_json, debug)
 
     def body() -> NoReturn:
         blocks, path = models.blocks_of(model)
-        exports = _export_all(session, blocks, path, out, precision, steps, redesign)
+        exports = _export_all(session, blocks, path, out, _options(precision, **machine), steps, redesign)
         result = {"blocks": [_export_json(item) for item in exports]}
         folders = ", ".join(str(item.folder) for item in exports)
         session.finish(result, f"exported, all checks passed: {folders}", GOOD)
@@ -226,8 +276,17 @@ def export_command(
     session.run(body)
 
 
+def _options(
+    precision: str, targets: tuple[str, ...], contract: str, mathematics: str, flash: int, ram: int
+) -> Options:
+    names = tuple(dict.fromkeys(targets))
+    if (flash or ram) and set(names) <= {"host"}:
+        raise UsageError("--flash and --ram are sizes of a target, and there is none; give --target, or leave them out")
+    return Options(Precision(precision), names, contract == "on", mathematics, flash=flash, ram=ram)
+
+
 def _export_all(
-    session: Session, blocks: list[Block], path: Path, out: Path, precision: str, steps: int, redesign: bool
+    session: Session, blocks: list[Block], path: Path, out: Path, options: Options, steps: int, redesign: bool
 ) -> list[Export]:
     exports = []
     for given in blocks:
@@ -241,7 +300,7 @@ def _export_all(
             def report(what: str, done: int, total: int, task: Any = task, name: str = block.name) -> None:
                 display.update(task, description=f"{name}: {what}", completed=done, total=total)
 
-            exports.append(export(block, out, precision=precision, steps=steps, progress=report))
+            exports.append(export(block, out, options=options, steps=steps, progress=report))
         for line in evidence_text(exports[-1], time.perf_counter() - started):
             session.say(line)
     return exports
@@ -263,7 +322,46 @@ def evidence_text(item: Export, seconds: float) -> list[str]:
         f"{name} {count}" for name, count in sorted(item.check.statuses.items(), key=lambda row: -row[1])
     )
     lines.append(f"  statuses reached: {reached}")
+    lines += coverage_text(evidence.get("coverage", ""))
+    lines += operations_text(json.loads(item.files["manifest.json"])["entries"])
+    return [*lines, *targets_text(evidence.get("targets", {}))]
+
+
+def coverage_text(coverage: Any) -> list[str]:
+    """Return a line on what the shipped vectors reach."""
+    if not isinstance(coverage, dict):
+        return [f"  coverage: {coverage}"] if coverage else []
+    ran, taken = coverage["statements"], coverage["branches"]
+    return [
+        f"  coverage: the shipped vectors run {ran['reached']} of {ran['all']} statements; with {coverage['corpus_calls']} "
+        f"more calls {taken['reached']} of {taken['all']} branches are taken (the rest with reasons in report.html)"
+    ]
+
+
+def operations_text(entries: dict[str, Any]) -> list[str]:
+    """Return the operations by kind of each entry that has any."""
+    words = ("addition", "multiplication", "division", "negation", "selection")
+    lines = []
+    for name, entry in entries.items():
+        counted = entry["operations"]
+        parts = [f"{counted[word]} {word}{'' if counted[word] == 1 else 's'}" for word in words if counted.get(word)]
+        parts += [f"{count} {word}" for word, count in counted.items() if word not in words]
+        if parts:
+            lines.append(f"  operations of {name}: {', '.join(parts)}")
     return lines
+
+
+def targets_text(targets: dict[str, Any]) -> list[str]:
+    """Return a table of what the code costs on each target."""
+    lines = [f"  {'target':<10} {'text':>7} {'data':>6} {'bss':>6} {'stack':>6}  instructions per call, the most seen"]
+    for name, facts in targets.items():
+        sizes, stack, counts = facts["object"], facts["stack"], facts["instructions"]
+        columns = [f"{sizes[key]:>{width}}" if isinstance(sizes, dict) else "-".rjust(width)
+                   for key, width in (("text", 7), ("data", 6), ("bss", 6))]  # fmt: skip
+        deepest = f"{max(stack.values()):>6}" if isinstance(stack, dict) else "-".rjust(6)
+        text = ", ".join(f"{key} {value}" for key, value in counts.items()) if isinstance(counts, dict) else counts
+        lines.append(f"  {name:<10} {' '.join(columns)} {deepest}  {text}")
+    return lines if targets else []
 
 
 def checks_text(results: list[CheckResult]) -> list[str]:
@@ -292,8 +390,9 @@ def checks_text(results: list[CheckResult]) -> list[str]:
 @click.option(
     "--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace."
 )
+@_target
 @_common
-def check_command(folder: Path, model: str, steps: int, as_json: bool, debug: bool) -> None:
+def check_command(folder: Path, model: str, steps: int, targets: tuple[str, ...], as_json: bool, debug: bool) -> None:
     """Is what lies in FOLDER still what its model gives, and does it still pass?"""
     session = Session(as_json, debug)
 
@@ -312,6 +411,7 @@ def check_command(folder: Path, model: str, steps: int, as_json: bool, debug: bo
             found = check_folder(
                 folder,
                 block,
+                targets=targets,
                 steps=steps,
                 progress=lambda what, done, total: display.update(
                     task, description=f"{block.name}: {what}", completed=done, total=total
@@ -338,6 +438,65 @@ def check_command(folder: Path, model: str, steps: int, as_json: bool, debug: bo
     session.run(body)
 
 
+@main.command(name="audit")
+@click.argument("folder", type=click.Path(path_type=Path))
+@click.option(
+    "--only", multiple=True, metavar="NAME", help=f"Run this audit only (again for more): {', '.join(dict(AUDITS))}."
+)
+@click.option(
+    "--calls",
+    type=click.IntRange(1000, 10**9),
+    default=3_000_000,
+    show_default=True,
+    help="Random calls for sanitizers.",
+)
+@click.option(
+    "--seconds", type=click.FloatRange(1, 86400), default=5, show_default=True, help="How long libFuzzer searches."
+)
+@_common
+def audit_command(folder: Path, only: tuple[str, ...], calls: int, seconds: float, as_json: bool, debug: bool) -> None:
+    """Look at the C in FOLDER with analysers, sanitizers and fuzzers; writes FOLDER/audit.json."""
+    session = Session(as_json, debug)
+
+    def body() -> NoReturn:
+        with session.progress() as display:
+            task = display.add_task("audit", total=None)
+            found = audit_folder(
+                folder,
+                only=only,
+                calls=calls,
+                seconds=seconds,
+                progress=lambda what, done, total: display.update(
+                    task, description=f"{folder.name}: {what}", completed=done, total=total
+                ),
+            )
+        for line in audit_text(found):
+            session.say(line)
+        result = {"folder": str(folder), **found.as_dict()}
+        if not found.passed:
+            session.finish(result, f"failed: {folder}: an audit has a finding", CHECK_FAILED)
+        if found.missing:
+            session.finish(result, f"error: {'; '.join(dict.fromkeys(found.missing.values()))}", USER_MUST_MEND)
+        session.finish(result, f"{folder}: no finding in {', '.join(found.findings)}", GOOD)
+
+    session.run(body)
+
+
+def audit_text(found: AuditResult) -> list[str]:
+    """Return what the audits of a folder found, for a terminal."""
+    lines = []
+    for check in found.checks:
+        mark = "ok  " if check.passed else "FAIL"
+        calls = f"  {check.calls} calls" if check.calls else ""
+        lines.append(f"  {mark} {check.name}{calls}{f'  {check.note}' if check.note else ''}")
+    for row in found.findings["misra"].facts["deviations"] if "misra" in found.findings else []:
+        lines.append(f"       {row['file']}: rule {row['rule']}, {row['count']} times: {row['reason']}")
+    lines += [f"  not run: {name}" for name in found.missing]
+    if found.folder.changed:
+        lines.append(f"  changed since the export: {', '.join(found.folder.changed)}")
+    return lines
+
+
 @main.command(name="demo")
 @click.option(
     "--out", type=click.Path(path_type=Path), default=Path("plantc-demo"), show_default=True, help="Output folder."
@@ -355,7 +514,7 @@ def demo_command(out: Path, as_json: bool, debug: bool) -> None:
             "The extended Kalman filter of a 12-state quadrotor: derived, written as C, compiled, cross-checked."
         )
         path = Path(__file__).resolve().parent
-        exports = _export_all(session, [quadrotor_ekf], path / "demo.py", out, "double", 100, False)
+        exports = _export_all(session, [quadrotor_ekf], path / "demo.py", out, Options(), 100, False)
         image = picture(quadrotor_ekf, out / "quadrotor_ekf.svg")
         session.say(f"  the compiled C at work: {image}")
         result = {"blocks": [_export_json(item) for item in exports], "picture": str(image)}

@@ -1,4 +1,7 @@
-"""Rewrites `generated_c/` from the examples: `python -m plantc.regenerate`, in a checkout."""
+"""Rewrites `generated_c/` from the examples: `python -m plantc.regenerate`, in a checkout.
+
+Every example is measured on all targets whose tools are installed; those that are missing are named.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +9,9 @@ import sys
 from pathlib import Path
 
 from .codegen import export
+from .codegen.options import Options
+from .codegen.style import Precision
+from .codegen.targets import TARGETS, installed_targets
 from .examples.attitude_ekf import attitude_ekf
 from .examples.pendulum import pendulum_ekf
 from .examples.quadrotor_ekf import quadrotor_ekf, quadrotor_kf
@@ -25,8 +31,12 @@ def main() -> None:
     folder = Path("generated_c")
     if not folder.is_dir():
         sys.exit("there is no generated_c here; run this at the top of a checkout of plantc")
+    targets = installed_targets()
+    for name in TARGETS:
+        if name not in targets:
+            print(f"not measured on {name}: its compiler or emulator is not installed")
     for block, precision in EXAMPLES:
-        done = export(block, folder, precision=precision)
+        done = export(block, folder, options=Options(Precision(precision), targets))
         print(f"{done.folder}: {len(done.files)} files, model {block.model_hash()}")
 
 

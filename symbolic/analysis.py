@@ -22,6 +22,7 @@ from scipy.sparse.csgraph import connected_components
 
 from .discretisation import noise_gain, transition
 from .errors import ModelError
+from .origins import said_at
 from .plant import Plant, Sensor, Symbol, wrap
 from .signals import WIDE, Signal
 
@@ -841,6 +842,7 @@ def _affine(plant: Plant, point: Values, *, wrapped: bool) -> Plant:
     start = _offset(change, arguments, numbers) + (x_o if plant.is_discrete else 0.0)
     rates = ca.SX(_rounded(start)) + _sparse(lin.A) @ dx + _sparse(lin.B) @ du + _sparse(lin.G) @ process
     linear.dynamics({state.signal.name: rates[state.error_at] for state in plant.states})
+    linear.dynamics_sources = dict(plant.dynamics_sources)
     noises = {noise.signal.name: _copy_noise(linear, noise) for noise in _sensor_noises(plant)}
     v = ca.vertcat(ca.SX(0, 1), *noises.values())
     readings = ca.SX(_rounded(_offset(symbolic.h, arguments, numbers)))
@@ -855,7 +857,8 @@ def _affine(plant: Plant, point: Values, *, wrapped: bool) -> Plant:
                 f"{plant.name}: the noise of the sensor {sensor.signal.name!r} vanishes at the point, to first "
                 "order; give the sensor variance= as well, or another point"
             )
-        _copy_sensor(plant, linear, where, sensor, readings[rows] + gain[rows, :] @ v)
+        with said_at(sensor.signal.source):
+            _copy_sensor(plant, linear, where, sensor, readings[rows] + gain[rows, :] @ v)
     return linear
 
 
@@ -870,18 +873,20 @@ def _copy_signals(plant: Plant, linear: Plant, where: OperatingPoint, wrapped: b
     for state in plant.states:
         signal = state.signal
         ends = None if signal.angle else (signal.low, signal.high)
-        symbol = linear.state(
-            signal.name, size=signal.size, unit=signal.unit, range=ends, angle=signal.angle, doc=signal.doc
-        )
+        with said_at(signal.source):
+            symbol = linear.state(
+                signal.name, size=signal.size, unit=signal.unit, range=ends, angle=signal.angle, doc=signal.doc
+            )
         away = symbol - x_o[state.at]
         turned = wrapped and signal.angle and bool(np.any(x_o[state.at]))
         pieces.append(wrap(away) if turned else away)
     start = 0
     for old in plant.inputs:
         signal = old.signal
-        new = linear.input(
-            signal.name, size=signal.size, unit=signal.unit, range=(signal.low, signal.high), doc=signal.doc
-        )
+        with said_at(signal.source):
+            new = linear.input(
+                signal.name, size=signal.size, unit=signal.unit, range=(signal.low, signal.high), doc=signal.doc
+            )
         deviations.append(new - u_o[start : start + signal.size])
         start += signal.size
     return ca.vertcat(*pieces), ca.vertcat(ca.SX(0, 1), *deviations), x_o
@@ -891,7 +896,8 @@ def _copy_noise(linear: Plant, noise: Any) -> Symbol:
     strength = noise.strength if noise.full else np.diag(noise.strength)
     keyword = "density" if noise.is_density else "variance"
     signal = noise.signal
-    return linear.noise(signal.name, size=signal.size, unit=signal.unit, doc=signal.doc, **{keyword: strength})
+    with said_at(signal.source):
+        return linear.noise(signal.name, size=signal.size, unit=signal.unit, doc=signal.doc, **{keyword: strength})
 
 
 def _copy_sensor(plant: Plant, linear: Plant, where: OperatingPoint, sensor: Sensor, expression: ca.SX) -> None:

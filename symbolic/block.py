@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from .errors import ModelError
 from .expressions import equation_text
 from .names import check_name, check_unique
+from .origins import Origin, place_of_call
 from .plant import Symbol
 from .program import (
     AllOf,
@@ -145,6 +146,7 @@ class Block:
         self.design: Design | None = None
         self.float_bound = 0.05
         self.source_hash = ""
+        self.source = place_of_call()
         self._inputs: dict[str, Symbol] = {}
         self._symbols: list[Symbol] = []
 
@@ -158,7 +160,7 @@ class Block:
         check_name("parameter", name, self.name)
         low, high = make_range(self.name, f"parameter {name!r}", range, (-WIDE, WIDE), size)
         values = check_default(self.name, f"parameter {name!r}", default, low, high)
-        signal = Signal(name, size, unit, low, high, doc, default=values)
+        signal = Signal(name, size, unit, low, high, doc, default=values, source=place_of_call())
         self.param_signals.append(signal)
         return self._own(signal)
 
@@ -168,7 +170,7 @@ class Block:
         """Declare an input; entries list the ones they take. Outside its range a call is refused (BAD_INPUT)."""
         check_name("input", name, self.name)
         low, high = make_range(self.name, f"input {name!r}", range, (-WIDE, WIDE), size)
-        symbol = self._own(Signal(name, size, unit, low, high, doc))
+        symbol = self._own(Signal(name, size, unit, low, high, doc, source=place_of_call()))
         self._inputs[name] = symbol
         return symbol
 
@@ -180,7 +182,7 @@ class Block:
         check_name("memory field", name, self.name)
         low, high = make_range(self.name, f"memory field {name!r}", range, (-WIDE, WIDE), size)
         values = check_default(self.name, f"memory field {name!r}", initial, low, high)
-        signal = Signal(name, size, unit, low, high, doc)
+        signal = Signal(name, size, unit, low, high, doc, source=place_of_call())
         self.memory_signals.append(signal)
         self.param_signals.append(replace(signal, name=f"{name}_0", default=values, doc=f"initial {name}"))
         return self._own(signal)
@@ -269,13 +271,21 @@ class Block:
         ]
         names = tuple(tuple(f"{place.name}_{i}" for i in range(size)) for place, size in targets)
         text = []
+        said = tuple(item for item in (place_of_call(),) if item)
+        origins: list[tuple[Origin, ...]] = [
+            (Origin("guard", f"guard: {status.name} where it is false", said),) for _, status in guards
+        ]
         for key, value in (*update.items(), *answers.items()):
             pairs = [(ca.SX(symbol), symbol.signal.name) for symbol in used]
             lines = equation_text(value, pairs)
-            text += [f"{key}{'' if len(lines) == 1 else f'[{i}]'} = {line}" for i, line in enumerate(lines)]
+            own = [f"{key}{'' if len(lines) == 1 else f'[{i}]'} = {line}" for i, line in enumerate(lines)]
+            origins.append(tuple(Origin("equation", line, said) for line in own))
+            text += own
         self.equations += [f"{name}: {line}" for line in text]
         body: list[Statement] = [
-            Evaluate(function, reads, tuple(((place, size),) for place, size in targets), names, tuple(text))
+            Evaluate(
+                function, reads, tuple(((place, size),) for place, size in targets), names, tuple(text), tuple(origins)
+            )
         ]
         for place, (_, status) in zip(guard_places, guards, strict=True):
             body.append(Refuse(status, IsSet(Element(place))))
@@ -284,7 +294,7 @@ class Block:
         ]
         body.append(Refuse(Status.OVERFLOW, self.judge_memory(list(update))))
         taken = tuple(symbol.signal for symbol in inputs)
-        self.entries[name] = Entry(name, taken, tuple(signals), tuple(body), doc)
+        self.entries[name] = Entry(name, taken, tuple(signals), tuple(body), doc, sources=said)
         self.check()
 
     def _plain_init(self) -> Entry:

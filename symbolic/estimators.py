@@ -28,6 +28,7 @@ from .kernels import (
     Scale,
 )
 from .names import check_unique
+from .origins import Origin
 from .plant import HIGHEST_VARIANCE, LOWEST_VARIANCE, Noise, Plant, Sensor, State, Symbol, wrap
 from .program import (
     AllOf,
@@ -49,6 +50,7 @@ from .program import (
     Restore,
     Statement,
     When,
+    Within,
     packed_index,
     packed_size,
     unpack_symmetric,
@@ -422,7 +424,8 @@ class _Builder:
         doc = noise.signal.doc or f"noise {noise.signal.name}"
         if noise.full:
             doc += " (upper triangle by rows)"
-        self._noise_parameter(f"{kind}_{noise.signal.name}", tuple(values), unit, doc, 0.0, full=noise.full)
+        name, said = f"{kind}_{noise.signal.name}", noise.signal.source
+        self._noise_parameter(name, tuple(values), unit, doc, 0.0, full=noise.full, source=said)
 
     def _declare_sensor(self, sensor: Sensor) -> None:
         name = sensor.signal.name
@@ -433,17 +436,35 @@ class _Builder:
             values = _pack(sensor.strength) if sensor.full else np.diag(sensor.strength)
             doc = f"noise of {name}" + (" (upper triangle by rows)" if sensor.full else "")
             unit = power_of_unit(sensor.signal.unit, 2)
-            self._noise_parameter(f"variance_{name}", tuple(values), unit, doc, LOWEST_VARIANCE, full=sensor.full)
+            self._noise_parameter(
+                f"variance_{name}",
+                tuple(values),
+                unit,
+                doc,
+                LOWEST_VARIANCE,
+                full=sensor.full,
+                source=sensor.signal.source,
+            )
         gate = float(self.options.gate.get(name, 0.0))
         if not 0.0 <= gate <= 1e6:
             raise ModelError(
                 f"{self.options.name}: the gate of {name!r} is {gate:g}; give a NIS from 0 (no gate) to 1e6"
             )
         doc = f"largest accepted NIS of {name}; 0: no gate"
-        self.block.param_signals.append(Signal(f"gate_{name}", low=(0.0,), high=(1e6,), default=(gate,), doc=doc))
+        self.block.param_signals.append(
+            Signal(f"gate_{name}", low=(0.0,), high=(1e6,), default=(gate,), doc=doc, source=sensor.signal.source)
+        )
 
     def _noise_parameter(
-        self, name: str, values: tuple[float, ...], unit: str, doc: str, low: float, *, full: bool = False
+        self,
+        name: str,
+        values: tuple[float, ...],
+        unit: str,
+        doc: str,
+        low: float,
+        *,
+        full: bool = False,
+        source: str = "",
     ) -> None:
         size = len(values)
         lows = (low,) * size
@@ -451,7 +472,14 @@ class _Builder:
             count = int((math.isqrt(8 * size + 1) - 1) // 2)
             lows = tuple(low if i == j else -HIGHEST_VARIANCE for i in range(count) for j in range(i, count))
         signal = Signal(
-            name, size, unit, lows, (HIGHEST_VARIANCE,) * size, doc, default=tuple(float(item) for item in values)
+            name,
+            size,
+            unit,
+            lows,
+            (HIGHEST_VARIANCE,) * size,
+            doc,
+            default=tuple(float(item) for item in values),
+            source=source,
         )
         self.block.param_signals.append(signal)
         self.noise_symbols.append((signal, ca.SX.sym(name, size)))
@@ -472,7 +500,14 @@ class _Builder:
             default = tuple(float(item) for item in x0[state.at])
             block.param_signals.append(
                 Signal(
-                    f"{signal.name}_0", signal.size, signal.unit, low, high, f"initial {signal.name}", default=default
+                    f"{signal.name}_0",
+                    signal.size,
+                    signal.unit,
+                    low,
+                    high,
+                    f"initial {signal.name}",
+                    default=default,
+                    source=signal.source,
                 )
             )
         for state in plant.states:
@@ -583,6 +618,7 @@ class _Builder:
         reads: Sequence[tuple[Sequence[ca.SX], Sequence[Any]]],
         outputs: Sequence[tuple[ca.SX, Targets, tuple[str, ...]]],
         comment: list[str],
+        origins: Sequence[Sequence[Origin]] = (),
     ) -> Evaluate:
         arguments = [symbol for symbols, _ in reads for symbol in symbols]
         places = [place for _, group in reads for place in group]
@@ -597,6 +633,7 @@ class _Builder:
             tuple(targets for _, targets, _ in outputs),
             tuple(names for _, _, names in outputs),
             tuple(comment),
+            tuple(tuple(group) for group in origins),
         )
 
     def _next_states(self) -> tuple[Targets, tuple[str, ...]]:
@@ -695,7 +732,13 @@ class _Builder:
         if made is not None and made.substeps > 1:
             how += f" in {made.substeps} substeps"
         body: list[Statement] = [
-            self._evaluate("predict", reads, outputs, [how, *dynamics_equations(plant)]),
+            self._evaluate(
+                "predict",
+                reads,
+                outputs,
+                [how, *dynamics_equations(plant)],
+                self._predict_origins(f_pattern, q_pattern),
+            ),
             Congruence(self.n, f_place, f_pattern, COVARIANCE, q_place, q_pattern, NEXT_COVARIANCE, f_names, q_names),
             self._hold(),
             self._judge(),
@@ -743,7 +786,9 @@ class _Builder:
             f"residual{tail(i)} = {name}{tail(i)} - {subtracted(text)}{wrapped}" for i, text in enumerate(expected)
         ]
         body: list[Statement] = [
-            self._evaluate(f"measure_{name}", reads, outputs, comment),
+            self._evaluate(
+                f"measure_{name}", reads, outputs, comment, self._measure_origins(sensor, comment, h_pattern, r_pattern)
+            ),
             InnovationVariance(
                 n, m, h, h_pattern, r, r_pattern, COVARIANCE, Place("out", "variance"), h_names, r_names
             ),
@@ -792,7 +837,7 @@ class _Builder:
             )
         body += [AllStatesUpdate(tuple(updates))] if whole else updates
         body.append(Refuse(Status.NOT_POSITIVE, _all_above(Place("local", "row_variance"), m, SMALLEST_VARIANCE)))
-        finite = Compare(Element(Place("local", "nis")), "<=", LARGEST_NIS)
+        finite = Within(Place("local", "nis"), (0.0,), (LARGEST_NIS,))
         body.append(Refuse(Status.OVERFLOW, finite))
         body.append(Assign(Place("out", "nis"), Place("local", "nis"), 1))
         gate = Element(Place("in", "gate"))
@@ -828,7 +873,38 @@ class _Builder:
             tuple(body),
             f"Correct the estimate with one reading of {name}.",
             hidden=((gate_signal, Place("param", f"gate_{name}")),),
+            sources=_known(sensor.signal.source),
         )
+
+    def _predict_origins(self, f_pattern: Pattern, q_pattern: Pattern) -> list[list[Origin]]:
+        """Return what the outputs of predict come from: an equation for each state, its derivative, its noise."""
+        plant = self.plant
+        equations = dynamics_equations(plant)
+        following: list[Origin] = []
+        rows: list[Origin] = []
+        for state in plant.states:
+            said = _known(plant.dynamics_sources.get(state.signal.name, ""))
+            own = [Origin("dynamics", text, said) for text in equations[state.error_at]]
+            rows += [Origin("derivative", f"row of F = dx/dx: {text}", said) for text in equations[state.error_at]]
+            # a quaternion has four elements and three equations
+            following += [Origin("dynamics", "; ".join(equations[state.error_at]), said)] * 4 if state.attitude else own
+        names = [noise.signal.name for noise in plant.process_noises]
+        names += [f"step noise of {name}" for name in plant.step_variances]
+        said = _known(*[noise.signal.source for noise in plant.process_noises])
+        spread_of = Origin("noise", f"Q over one step: {', '.join(names) or 'none'}", said)
+        return [following, [rows[i] for i, _ in f_pattern], [spread_of] * len(q_pattern)]
+
+    def _measure_origins(
+        self, sensor: Sensor, equations: list[str], h_pattern: Pattern, r_pattern: Pattern
+    ) -> list[list[Origin]]:
+        """Return what residual, H and R of a sensor come from."""
+        said = _known(sensor.signal.source)
+        noises = _known(sensor.signal.source, *[noise.signal.source for noise in self.plant.sensor_noises(sensor)])
+        return [
+            [Origin("sensor", text, said) for text in equations],
+            [Origin("derivative", f"row of H = dh/dx: {equations[i]}", said) for i, _ in h_pattern],
+            [Origin("noise", f"R of {sensor.signal.name}", noises)] * len(r_pattern),
+        ]
 
     def _correct(self, sensor: str) -> list[Statement]:
         """Apply the correction d to the state, and turn P into the corrected body frame of an attitude."""
@@ -1144,6 +1220,11 @@ def plant_equations(plant: Plant) -> list[str]:
             noise = " + noise" if sensor.strength is not None or sensor.variance_expression is not None else ""
             lines.append(f"{sensor.signal.name}{'' if size == 1 else f'[{i}]'} = {text}{noise}")
     return lines
+
+
+def _known(*sources: str) -> tuple[str, ...]:
+    """Return the lines that are known, each once."""
+    return tuple(dict.fromkeys(item for item in sources if item))
 
 
 def _noise_description(noise: Noise) -> textbook.NoiseModel:

@@ -224,6 +224,16 @@ def _if_else_zero(condition: Any, value: Any) -> Any:
     return np.where(np.real(condition) != 0, np.asarray(value, dtype=kind), kind.type(0))
 
 
+def _extreme(a: Any, b: Any, is_first: Any) -> Any:
+    """Return the first or the second, in the manner of CasADi: NaN gives the other one, a tie (of zeros, too) the first."""
+    value = np.where(is_first | np.isnan(np.real(b)), a, b)
+    if np.iscomplexobj(value):
+        # at a tie the derivative is the mean of both sides
+        tie = np.real(a) == np.real(b)
+        return np.where(tie, np.real(value) + 0.5j * (np.imag(a) + np.imag(b)), value)
+    return value
+
+
 _NUMPY: dict[str, Any] = {
     "_truth": _truth,
     "_if_else_zero": _if_else_zero,
@@ -246,9 +256,8 @@ _NUMPY: dict[str, Any] = {
     "_sign": lambda x: np.sign(np.real(x)),
     "_floor": lambda x: np.floor(np.real(x)),
     "_ceil": lambda x: np.ceil(np.real(x)),
-    # at a tie the derivative is the mean of both sides, as CasADi's is
-    "_fmin": lambda a, b: np.where(np.real(a) == np.real(b), (a + b) / 2, np.where(np.real(a) < np.real(b), a, b)),
-    "_fmax": lambda a, b: np.where(np.real(a) == np.real(b), (a + b) / 2, np.where(np.real(a) > np.real(b), a, b)),
+    "_fmin": lambda a, b: _extreme(a, b, np.real(a) <= np.real(b)),
+    "_fmax": lambda a, b: _extreme(a, b, np.real(a) >= np.real(b)),
 }
 
 _INFIX_NUMPY = {

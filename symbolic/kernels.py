@@ -216,7 +216,7 @@ class RowUpdate(Kernel):
         scales[self.row] = variance
         keep = np.eye(self.size) - np.outer(gain, H)
         updated = keep @ P @ keep.T + r[self.row] * np.outer(gain, gain)
-        nis += innovation**2 / (variance if variance >= SMALLEST_VARIANCE else 1.0)
+        nis += innovation * innovation / (variance if variance >= SMALLEST_VARIANCE else 1.0)
         return [pack_symmetric(updated), delta + gain * innovation, np.array([nis]), scales]
 
 

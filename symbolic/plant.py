@@ -16,6 +16,7 @@ from . import quaternions
 from .errors import ModelError
 from .expressions import constants_of, expand
 from .names import check_name
+from .origins import place_of_call, places_of_items
 from .signals import WIDE, WRAPPED, Kind, Signal, check_default, make_range, same_unit, spread
 
 HIGHEST_VARIANCE = 1.0e6
@@ -148,6 +149,7 @@ class Plant:
         self.step_variances: dict[str, tuple[float, ...]] = {}
         self._books = _Books()
         self._dynamics: dict[str, ca.SX] = {}
+        self.dynamics_sources: dict[str, str] = {}
         self._owners: dict[int, str] = {}
 
     # -- declaring ----------------------------------------------------------------------------------------------------
@@ -302,8 +304,10 @@ class Plant:
                 f"{self.name}: dynamics are given as {type(rates).__name__}; give a dictionary, state -> expression"
             )
         given: dict[str, ca.SX] = {}
-        for key, value in rates.items():
+        places: dict[str, str] = {}
+        for (key, value), place in zip(rates.items(), places_of_items(len(rates)), strict=True):
             name = self._key("dynamics are given", key)
+            places[name] = place
             expression = self._checked(f"the dynamics of {name!r}", value)
             state = known[name]
             size = state.error_at.stop - state.error_at.start
@@ -317,7 +321,7 @@ class Plant:
             raise ModelError(
                 f"{self.name}: no dynamics for the state(s) {', '.join(map(repr, missing))}; add them to dynamics({{...}})"
             )
-        self._dynamics = given
+        self._dynamics, self.dynamics_sources = given, places
         self._check_noise_kinds()
 
     def sensor(
@@ -765,7 +769,7 @@ class Plant:
         if name == "dt":
             raise ModelError(f"{self.name}: the name 'dt' is the time step's; call this {kind} something else")
         low, high = make_range(self.name, f"{kind} {name!r}", given, default, size)
-        return Signal(name, size, unit, low, high, doc, Kind.REAL, angle)
+        return Signal(name, size, unit, low, high, doc, Kind.REAL, angle, source=place_of_call())
 
     def _names(self) -> set[str]:
         return set(self._owners.values())

@@ -9,12 +9,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from .origins import Origin
 from .signals import Signal, Status
 
 if TYPE_CHECKING:
@@ -54,6 +56,32 @@ class Refused(Exception):  # noqa: N818 - it is an outcome, not an error
         self.status = status
 
 
+Trail = tuple[str | int, ...]
+"""Where a statement stands in a body: branch, position, branch, position ..."""
+
+
+@dataclass(frozen=True)
+class Visit:
+    """A statement that a call executed, or what came of it.
+
+    Attributes
+    ----------
+    entry : str
+        Name of the entry, after those of the parts that lead to it.
+    trail : tuple
+        Where the statement stands in the entry's body.
+    statement : Statement
+        It.
+    outcome : str
+        Empty, or the name of the status with which it refused, or what it had to do.
+    """
+
+    entry: str
+    trail: Trail
+    statement: Statement
+    outcome: str = ""
+
+
 @dataclass
 class Frame:
     """The places of one running entry, and how near it came to a switch.
@@ -67,6 +95,12 @@ class Frame:
     margin : float
         Smallest distance of a compared value from its limit, relative to the larger of them; a map is discontinuous
         there, and rounding may take either branch.
+    entry : str
+        Name of the running entry, after those of the parts that lead to it.
+    trail : tuple
+        Where the running statement stands in the entry's body.
+    visits : list of Visit or None
+        What was executed so far, if it is asked for.
     """
 
     block: Block
@@ -75,6 +109,14 @@ class Frame:
     status: Status = Status.OK
     margin: float = math.inf
     patches: dict[str, Any] = field(default_factory=dict)
+    entry: str = ""
+    trail: Trail = ()
+    visits: list[Visit] | None = None
+
+    def visited(self, statement: Statement, outcome: str = "") -> None:
+        """Record that a statement ran, or what came of it."""
+        if self.visits is not None:
+            self.visits.append(Visit(self.entry, self.trail, statement, outcome))
 
     def read(self, operand: Operand) -> float:
         """Return the value of an operand."""
@@ -203,6 +245,8 @@ class Evaluate:
         For each output the C names of its nonzeros, where they go into locals.
     comment : tuple of str
         The equations, one a line.
+    origins : tuple of tuple of Origin
+        For each output what its nonzeros come from; empty if it is not known.
     """
 
     function: ca.Function
@@ -210,6 +254,7 @@ class Evaluate:
     writes: tuple[tuple[tuple[Place, int], ...], ...]
     names: tuple[tuple[str, ...], ...]
     comment: tuple[str, ...] = ()
+    origins: tuple[tuple[Origin, ...], ...] = ()
 
     def run(self, frame: Frame) -> None:
         arguments = []
@@ -299,8 +344,10 @@ class When:
     comment: str = ""
 
     def run(self, frame: Frame) -> None:
-        for statement in self.then if self.condition.holds(frame) else self.otherwise:
-            statement.run(frame)
+        if self.condition.holds(frame):
+            run_body(self.then, frame, "then")
+        else:
+            run_body(self.otherwise, frame, "otherwise")
 
 
 @dataclass(frozen=True)
@@ -379,6 +426,10 @@ class HoldVariances:
             frame.near(float(packed[diagonal[i]]), 0.0, natural)
             frame.near(float(packed[diagonal[i]]), low)
             frame.near(float(packed[diagonal[i]]), high)
+        limits = self.limits()
+        certain = float(np.sum(np.abs(packed))) <= min(limits)
+        if not (certain and all(packed[at] >= low for at, low in zip(diagonal, self.floor, strict=True))):
+            frame.visited(self, "looked at closely")  # what a fast test of the sum of magnitudes does not pass
         if not all(packed[item] >= 0 for item in diagonal):
             raise Refused(Status.NOT_POSITIVE)
         with np.errstate(all="ignore"):
@@ -390,13 +441,19 @@ class HoldVariances:
                         if j != i:
                             packed[packed_index(self.size, i, j)] *= factor
                     packed[diagonal[i]] = high
+                    frame.visited(self, "above the ceiling")
+                    if i > 0:
+                        frame.visited(self, "above the ceiling, not the first")
+                    if i < self.size - 1:
+                        frame.visited(self, "above the ceiling, not the last")
                     frame.raise_to(Status.CLAMPED)
                 elif value < low:
                     packed[diagonal[i]] = low
+                    frame.visited(self, "below the floor")
                     frame.raise_to(Status.CLAMPED)
-        limits = self.limits()
-        for value, limit in zip(packed, limits, strict=True):
-            frame.near(abs(float(value)), limit)
+        for k, (value, limit) in enumerate(zip(packed, limits, strict=True)):
+            if k not in diagonal:  # the diagonal was compared before it was held, and is within its limit since
+                frame.near(abs(float(value)), limit)
         frame.values[self.target] = packed
         if not np.all(np.abs(packed) <= limits):
             raise Refused(Status.OVERFLOW)
@@ -436,7 +493,7 @@ class Call:
             given = frame.values[argument] if isinstance(argument, Place) else np.array([argument])
             values[Place("in", name)] = given
         params = {name.removeprefix(prefix): value for name, value in frame.params.items() if name.startswith(prefix)}
-        outcome = run_entry(block, entry, values, params, frame.patches)
+        outcome = run_entry(block, entry, values, params, frame.patches, frame.visits, _path(frame.entry) + prefix)
         frame.margin = min(frame.margin, outcome.margin)
         if outcome.status < 0:
             raise Refused(outcome.status)
@@ -462,19 +519,16 @@ class Attempt:
         saved = frame.memory_spaces("next")
         status_before = frame.status
         try:
-            for call in self.calls:
-                call.run(frame)
+            run_body(self.calls, frame, "calls")
             own = frame.values[Place("local", "last_status")]
             frame.values[self.status] = np.array(own, dtype=np.int32)
-            for statement in self.accepted:
-                statement.run(frame)
+            run_body(self.accepted, frame, "accepted")
         except Refused as refusal:
             for name, value in saved.items():
                 frame.values[Place("next", name)] = value
             frame.status = status_before
             frame.values[self.status] = np.array([refusal.status], dtype=np.int32)
-            for statement in self.on_refused:
-                statement.run(frame)
+            run_body(self.on_refused, frame, "on_refused")
 
 
 @dataclass(frozen=True)
@@ -493,6 +547,8 @@ class Entry:
         Inputs that only callers inside the block set; elsewhere they are read from the place.
     checks_params : bool
         Whether it judges the parameters' ranges (`init` does).
+    sources : tuple of str
+        Lines of the user's file that it comes from, beside that of the block; no part of the model.
     """
 
     name: str
@@ -502,6 +558,7 @@ class Entry:
     doc: str = ""
     hidden: tuple[tuple[Signal, Place], ...] = ()
     checks_params: bool = False
+    sources: tuple[str, ...] = ()
 
 
 @dataclass
@@ -519,6 +576,8 @@ def run_entry(
     values: dict[Place, Array],
     params: dict[str, Array],
     patches: dict[str, Any] | None = None,
+    visits: list[Visit] | None = None,
+    path: str = "",
 ) -> Outcome:
     """Run an entry: compute, judge; the caller commits.
 
@@ -534,27 +593,69 @@ def run_entry(
         Parameter name -> array.
     patches : dict, optional
         CasADi functions to use instead of those of the same name: for tests that plant a fault.
+    visits : list, optional
+        Takes what was executed.
+    path : str
+        Names of the parts that lead to the block, a dot after each.
     """
-    frame = Frame(block, dict(values), params, patches=patches or {})
+    frame = Frame(block, dict(values), params, patches=patches or {}, entry=path + entry.name, visits=visits)
     for name, value in params.items():
         frame.values[Place("param", name)] = value
     for signal, place in entry.hidden:
         frame.values.setdefault(Place("in", signal.name), frame.values[place])
     try:
-        if not block.judge_inputs(entry).holds(frame):
-            raise Refused(Status.BAD_INPUT)
-        if entry.checks_params and not block.judge_params().holds(frame):
-            raise Refused(Status.BAD_PARAM)
+        run_body(judgements(block, entry), frame, "judged")
         for signal in block.memory_signals_flat():
             place = Place("memory", signal.name)
             if place in frame.values:
                 frame.values[Place("next", signal.name)] = frame.values[place].copy()
-        for statement in entry.body:
-            statement.run(frame)
+        run_body(entry.body, frame, "body")
     except Refused as refusal:
         return Outcome(refusal.status, {}, frame.margin)
     kept = {place: value for place, value in frame.values.items() if place.space in ("next", "out")}
     return Outcome(frame.status, kept, frame.margin)
+
+
+def judgements(block: Block, entry: Entry) -> tuple[Refuse, ...]:
+    """Return what is judged before the body of an entry: its inputs, and the parameters where it checks them."""
+    answer = [Refuse(Status.BAD_INPUT, block.judge_inputs(entry))]
+    if entry.checks_params:
+        answer.append(Refuse(Status.BAD_PARAM, block.judge_params()))
+    return tuple(answer)
+
+
+def run_body(statements: Sequence[Statement], frame: Frame, branch: str) -> None:
+    """Execute statements in order, recording each."""
+    outer = frame.trail
+    try:
+        for k, statement in enumerate(statements):
+            frame.trail = (*outer, branch, k)
+            frame.visited(statement)
+            statement.run(frame)
+    except Refused as refusal:
+        frame.visited(statement, refusal.status.name)
+        raise
+    finally:
+        frame.trail = outer
+
+
+def numbered(statements: Sequence[Statement], branch: str, outer: Trail = ()) -> Iterator[tuple[Trail, Statement]]:
+    """Yield every statement with the trail that `run_body` records for it."""
+    for k, statement in enumerate(statements):
+        trail: Trail = (*outer, branch, k)
+        yield trail, statement
+        if isinstance(statement, When):
+            yield from numbered(statement.then, "then", trail)
+            yield from numbered(statement.otherwise, "otherwise", trail)
+        elif isinstance(statement, Attempt):
+            yield from numbered(statement.calls, "calls", trail)
+            yield from numbered(statement.accepted, "accepted", trail)
+            yield from numbered(statement.on_refused, "on_refused", trail)
+
+
+def _path(entry: str) -> str:
+    """Return what stands before the name of an entry."""
+    return entry[: entry.rfind(".") + 1]
 
 
 def walk(statements: Sequence[Statement]) -> Iterator[Statement]:
@@ -582,13 +683,25 @@ def packed_size(size: int) -> int:
     return size * (size + 1) // 2
 
 
+@lru_cache
+def _upper(size: int) -> tuple[Array, Array]:
+    """Return rows and columns of an upper triangle, in the order of its packing."""
+    return np.triu_indices(size)
+
+
+@lru_cache
+def _places(size: int) -> Array:
+    """Return, for each element of a symmetric matrix, where it stands in the packed triangle."""
+    table = np.zeros((size, size), dtype=int)
+    table[_upper(size)] = np.arange(packed_size(size))
+    return table + np.triu(table, 1).T
+
+
 def unpack_symmetric(packed: Array, size: int) -> Array:
     """Return the full symmetric matrix of a packed upper triangle."""
-    full = np.zeros((size, size), dtype=packed.dtype)
-    full[np.triu_indices(size)] = packed
-    return full + np.triu(full, 1).T
+    return packed[_places(size)]
 
 
 def pack_symmetric(full: Array) -> Array:
     """Return the upper triangle of a matrix, packed by rows."""
-    return np.asarray(full)[np.triu_indices(len(full))]
+    return np.asarray(full)[_upper(len(full))]

@@ -6,7 +6,7 @@ import enum
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
 import numpy as np
@@ -83,6 +83,8 @@ class Signal:
         Nominal value of a parameter, initial value of a memory field.
     members : tuple of Signal
         The signals of a group.
+    source : str
+        Where a user declared it, ``file.py:12``; no part of the model.
     """
 
     name: str
@@ -95,6 +97,7 @@ class Signal:
     angle: bool = False
     default: tuple[float, ...] | None = None
     members: tuple[Signal, ...] = ()
+    source: str = field(default="", repr=False, compare=False)
 
     @property
     def uniform_range(self) -> Interval | None:

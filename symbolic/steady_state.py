@@ -220,7 +220,7 @@ def _assemble(
     block.design = Design(
         {"gain": gain},
         source,
-        lambda values: build(plant, around, name, doc, values["gain"]),
+        lambda values: _rebuilt(build(plant, around, name, doc, values["gain"]), block.source),
         lambda values: _properties(matrices, np.asarray(values["gain"])),
     )
     oracle = _oracle(plant, block, gain)
@@ -237,6 +237,12 @@ def _assemble(
         return oracle.split(x0 + 0.1 * (1 + np.abs(x0)) * np.clip(rng.normal(size=len(x0)), -3, 3))
 
     block.scenario = Scenario(calls, memory)
+    return block
+
+
+def _rebuilt(block: Block, source: str) -> Block:
+    """Return a block that belongs to the line where it was first made."""
+    block.source = source
     return block
 
 

@@ -16,6 +16,9 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 FENCE = re.compile(r"^```([a-z]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
+CROSS_TOOLS = ("arm-none-eabi-gcc", "riscv64-unknown-elf-gcc", "qemu-system-arm", "qemu-system-riscv32")
+
+
 @dataclass
 class Fence:
     """A fenced block of a page."""
@@ -76,6 +79,8 @@ def test_what_a_page_shows_runs(path, tmp_path, monkeypatch, plantc, needs):
         elif path.name == "README.md" and fence.language == "python" and not ran:
             (tmp_path / "pendulum.py").write_text(fence.text)
         if fence.language == "python":
+            if "TargetView" in fence.text:
+                needs(*CROSS_TOOLS)
             exec(compile("\n" * (fence.line - 1) + fence.text, str(path), "exec"), names)
             ran += 1
         elif fence.language == "pycon":
@@ -89,12 +94,20 @@ def test_what_a_page_shows_runs(path, tmp_path, monkeypatch, plantc, needs):
         elif fence.language in ("", "console") and not fence.marked:
             for command, lines in fence.commands:
                 words = shlex.split(command, comments=True)
+                if words[:2] == ["plantc", "audit"]:
+                    needs("cppcheck", "gcc", "clang")
                 if words[0] == "plantc":
+                    if "--target" in words:
+                        needs(*CROSS_TOOLS)
                     done = plantc(*words[1:])
                     status, text = done.status, done.err
                 else:
-                    if words[0] == "cc":
-                        needs("cc")
+                    if words[0] in ("cc", "cmake", "ctest"):
+                        needs(words[0])
+                    if "pkg-config" in command:
+                        needs("pkg-config")
+                    if "m4" in command:
+                        needs("arm-none-eabi-gcc")
                     run = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
                     status, text = run.returncode, run.stdout + run.stderr
                 assert status == 0, f"{where}: {command}: {text}"

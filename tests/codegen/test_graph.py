@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from plantc.codegen.graph import Graph
-from plantc.symbolic.expressions import tape
+from plantc.symbolic.expressions import numpy_callable, tape
 
 
 def evaluate(node, loads):
@@ -56,6 +56,22 @@ def test_a_tape_means_the_same_as_casadi(values):
     )
     _, _, ours, theirs = through_graph(expression, x, values)
     np.testing.assert_allclose(ours, theirs, rtol=1e-14, atol=1e-14)
+
+
+@pytest.mark.parametrize("first", [0.0, -0.0, 1.0, -2.0, np.nan, np.inf])
+@pytest.mark.parametrize("second", [0.0, -0.0, 1.0, 3.0, np.nan, -np.inf])
+def test_extremes_are_the_same_bits_in_every_view(first, second):
+    """NaN gives the other operand, a tie the first: in CasADi's machine, in the graph that becomes C, and in NumPy."""
+    x = ca.SX.sym("x", 2)
+    expressions = [ca.fmin(x[0], x[1]), ca.fmax(x[0], x[1])]
+    expressions += [g(x[0], k) for g in (ca.fmin, ca.fmax) for k in (0.5, 0.0)]
+    expressions += [g(k, x[1]) for g in (ca.fmin, ca.fmax) for k in (0.5, 0.0)]
+    _, _, ours, theirs = through_graph(ca.vertcat(*expressions), x, [first, second])
+    numpy_view = numpy_callable(ca.Function("f", [x], [ca.vertcat(*expressions)]))(np.array([first, second]))[0]
+    usual = ~np.isnan(theirs)
+    for other in (ours, numpy_view):
+        assert np.array_equal(np.isnan(other), np.isnan(theirs))
+        assert other[usual].tobytes() == theirs[usual].tobytes()
 
 
 def count(nodes, operation):

@@ -266,17 +266,28 @@ def test_derive_of_a_plant_with_dt_as_an_input_needs_dt(model, plantc):
 
 
 def contents(folder):
-    return {path.name: path.read_bytes() for path in folder.iterdir()}
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
 FILES = {
     "CMakeLists.txt",
+    "cmake/low_pass.pc.in",
+    "cmake/low_passConfig.cmake.in",
     "evidence.json",
-    "example_main.c",
-    "low_pass.c",
-    "low_pass.h",
+    "examples/example_main.c",
+    "examples/low_pass/low_pass.ino",
+    "library.json",
+    "library.properties",
+    "verify/fuzz_main.c",
     "manifest.json",
-    "test_vectors.c",
+    "report.html",
+    "src/low_pass.c",
+    "src/low_pass.h",
+    "test/test_vectors.c",
+    "trace.json",
+    "zephyr/CMakeLists.txt",
+    "zephyr/Kconfig",
+    "zephyr/module.yml",
 }
 
 
@@ -305,7 +316,7 @@ def test_export_of_a_filter_in_float(model, plantc, tmp_path):
     assert said.status == 0, said.err
     assert json.loads((tmp_path / "deep/down/pendulum_ekf/manifest.json").read_text())["precision"] == "float"
     assert "double" not in re.sub(
-        r"/\*.*?\*/", "", (tmp_path / "deep/down/pendulum_ekf/pendulum_ekf.c").read_text(), flags=re.S
+        r"/\*.*?\*/", "", (tmp_path / "deep/down/pendulum_ekf/src/pendulum_ekf.c").read_text(), flags=re.S
     )
 
 
@@ -340,7 +351,7 @@ def test_export_to_a_folder_with_an_odd_name(model, plantc, tmp_path):
     odd = "sp ace é [bold] :x: %s"
     said = plantc("export", model(LOW_PASS), *FAST, "--out", odd)
     assert said.status == 0, said.err
-    assert (tmp_path / odd / "low_pass/low_pass.c").is_file()
+    assert (tmp_path / odd / "low_pass/src/low_pass.c").is_file()
     assert said.summary.endswith(f"{odd}/low_pass")
 
 
@@ -418,7 +429,7 @@ def test_check_of_what_was_just_exported(exported, plantc):
     assert contents(exported[1]) == before
 
 
-@pytest.mark.parametrize("file", sorted(FILES - {"evidence.json"}))
+@pytest.mark.parametrize("file", sorted(FILES - {"evidence.json", "report.html"}))
 def test_check_finds_a_changed_file(exported, plantc, file):
     path = exported[1] / file
     path.write_text(path.read_text() + "\n")
@@ -427,7 +438,7 @@ def test_check_finds_a_changed_file(exported, plantc, file):
     assert one_object(said)["changed"] == [file]
 
 
-@pytest.mark.parametrize("file", ["low_pass.c", "low_pass.h", "test_vectors.c", "CMakeLists.txt"])
+@pytest.mark.parametrize("file", ["src/low_pass.c", "src/low_pass.h", "test/test_vectors.c", "CMakeLists.txt"])
 def test_check_finds_a_missing_file(exported, plantc, file):
     (exported[1] / file).unlink()
     said = checked(plantc, exported)
@@ -436,14 +447,14 @@ def test_check_finds_a_missing_file(exported, plantc, file):
 
 
 def test_check_runs_the_c_that_lies_there(exported, plantc):
-    path = exported[1] / "low_pass.c"
+    path = exported[1] / "src/low_pass.c"
     wrong = path.read_text().replace("(raw - smooth)", "(1.0000001 * (raw - smooth))")
     assert wrong != path.read_text()
     path.write_text(wrong)
     said = checked(plantc, exported)
     fails(said, 1, "a check failed", "native = interpret")
     answer = one_object(said)
-    assert answer["changed"] == ["low_pass.c"]
+    assert answer["changed"] == ["src/low_pass.c"]
     assert any(not check["passed"] for check in answer["checks"])
 
 
@@ -451,7 +462,7 @@ def test_check_finds_a_changed_model(exported, plantc, model):
     model(LOW_PASS.replace("0.1", "0.2"))
     said = checked(plantc, exported)
     fails(said, 1, "export again")
-    assert {"low_pass.c", "low_pass.h", "manifest.json"} <= set(one_object(said)["changed"])
+    assert {"src/low_pass.c", "src/low_pass.h", "manifest.json"} <= set(one_object(said)["changed"])
 
 
 def test_check_finds_that_the_block_is_gone(exported, plantc, model):
@@ -497,7 +508,7 @@ def test_designed_numbers_are_written_once_then_read(model, plantc, tmp_path):
     stored["cart_sskf"]["values"]["gain"][0][0] = 0.0625  # what the file says is what the C gets
     design.write_text(json.dumps(stored))
     assert plantc("export", name, *FAST).status == 0
-    assert "0.0625" in (tmp_path / "generated_c/cart_sskf/cart_sskf.c").read_text()
+    assert "0.0625" in (tmp_path / "generated_c/cart_sskf/src/cart_sskf.c").read_text()
     said = plantc("check", "generated_c/cart_sskf", "--model", name, *FAST)
     fails(said, 1, "design: residual of the gain equation")
 

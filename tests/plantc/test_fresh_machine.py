@@ -58,7 +58,7 @@ def test_the_demo_command_needs_python_only(tmp_path):
     assert "native = reference" in done.stderr
     assert "FAIL" not in done.stderr
     folder = tmp_path / "plantc/plantc-demo"
-    assert (folder / "quadrotor_ekf/quadrotor_ekf.c").is_file()
+    assert (folder / "quadrotor_ekf/src/quadrotor_ekf.c").is_file()
     assert (folder / "quadrotor_ekf.svg").is_file()
 
 
