@@ -9,7 +9,7 @@ bounded is `Unknown`, with the reason.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import prod
 
@@ -88,7 +88,7 @@ def source_loops(text: str) -> list[SourceLoop]:
             body = "\n".join(lines[last_of_head + 1 : last + 1])
             counter, trips, greatest = _trips(head, body, dict(open_loops))
             loops.append(SourceLoop(function, index + 1, last + 1, trips, head))
-            open_loops.append((counter, greatest))
+            open_loops.append((counter if trips is not None else "", greatest))
             ends.append(last)
         depth += line.count("{") - line.count("}")
         index += 1
@@ -189,10 +189,12 @@ class Analysis:
         Of the C file, see `source_loops`.
     file : str
         The C file's name, as debug information has it.
+    largest : int
+        Bytes of the largest struct of the C: how much a loop copies that the compiler made for an assignment.
     """
 
-    def __init__(self, image: Image, loops: Sequence[SourceLoop] = (), file: str = ""):
-        self.image, self.loops, self.file = image, list(loops), file
+    def __init__(self, image: Image, loops: Sequence[SourceLoop] = (), file: str = "", largest: int = 0):
+        self.image, self.loops, self.file, self.largest = image, list(loops), file, largest
         self._bodies: dict[int, dict[int, _Block]] = {}
         self._costs: dict[tuple[int, int | None], int] = {}
         self._stacks: dict[int, int] = {}
@@ -208,6 +210,10 @@ class Analysis:
         """Return a bound on the bytes of stack that a call of a function takes, callees included."""
         return self._ask(function, self._stack)
 
+    def frame(self, function: str) -> Bound:
+        """Return the bytes of stack of a function alone, callees left out."""
+        return self._ask(function, lambda address: self._deepest_stack(address, lambda target: 0))
+
     def callees(self, function: str) -> list[str]:
         """Return the names of all functions that a call may reach, itself left out; undefined ones too."""
         start = self.image.function_named(function)
@@ -215,7 +221,11 @@ class Analysis:
         todo = [] if start is None else [start.address]
         seen = set(todo)
         while todo:
-            for block in self._body(todo.pop()).values():
+            try:
+                blocks = self._body(todo.pop())
+            except _NoBound:  # what cannot be read calls what cannot be known
+                continue
+            for block in blocks.values():
                 for _, target in block.calls:
                     names.add(self._name(target))
                     if isinstance(target, int) and target not in seen:
@@ -223,22 +233,23 @@ class Analysis:
                         todo.append(target)
         return sorted(names - {function})
 
-    def _ask(self, function: str, how: object) -> Bound:
+    def _ask(self, function: str, how: Callable[[int], int]) -> Bound:
         start = self.image.function_named(function)
         if start is None:
             return Unknown(f"no function {function!r} in {self.image.name}")
         self._busy = []
         try:
-            answer = how(start.address)  # type: ignore[operator]
+            return how(start.address)
         except _NoBound as reason:
             return Unknown(str(reason))
-        return int(answer)
 
     def _name(self, target: int | str) -> str:
         if isinstance(target, str):
             return target
         function = self.image.function_at(target)
-        return function.name if function is not None and function.address == target else f"code at {target:#x}"
+        if function is None:
+            return f"code at {target:#x}"
+        return function.name if function.address == target else f"{function.name}+{target - function.address:#x}"
 
     # -- blocks -------------------------------------------------------------------------------------------------------
 
@@ -409,13 +420,7 @@ class Analysis:
                 at = part[0]
                 longest[at] = arriving[at] + weights[at]
             else:
-                if len(entries) > 1:
-                    raise _NoBound(f"a loop with several entries in {self._name(start)}")
-                members = set(part)
-                inner, around = self._region(entries[0], blocks, members, weights, start, count)
-                turns = self._turns(entries[0], blocks, members, start, count)
-                for at, way in inner.items():
-                    longest[at] = arriving[entries[0]] + turns * around + way
+                longest.update(self._loop(entries, blocks, set(part), weights, start, count, arriving))
             for at in part:
                 for target in edges[at]:
                     if target not in part and at in longest:
@@ -423,40 +428,75 @@ class Analysis:
         back = [longest[at] for at in longest if head in blocks[at].after]
         return longest, max(back, default=0)
 
+    def _loop(
+        self,
+        entries: Sequence[int],
+        blocks: Mapping[int, _Block],
+        members: set[int],
+        weights: Mapping[int, int],
+        start: int,
+        count: int | None,
+        arriving: Mapping[int, int],
+    ) -> dict[int, int]:
+        """Return the longest way to the end of each block of a loop.
+
+        A loop that is one of the C's turns as often as that. Where a compiler made two loops in each other of one, or a
+        loop with two entries, each instruction runs at most as often as what it was compiled from, and is so counted.
+        """
+        begin = max(arriving[at] for at in entries)
+        copying = count is not None and bool(_COPIES.match(self._name(start)))
+        if len(entries) == 1:
+            inner, around = self._region(entries[0], blocks, members, weights, start, count)
+            turns = self._turns(entries[0], blocks, members, start, count)
+            if turns is not None:
+                return {at: begin + turns * around + way for at, way in inner.items()}
+        touched = self._touched(blocks, members)
+        if copying or not touched:
+            raise _NoBound(f"a loop with several entries in {self._name(start)}")
+        whole = sum(weights[at] for at in members) * (self._product(touched, 1))
+        return {at: begin + whole for at in members}
+
     # -- how often a loop turns ---------------------------------------------------------------------------------------
 
-    def _turns(self, head: int, blocks: Mapping[int, _Block], members: set[int], start: int, count: int | None) -> int:
-        """Return how often a loop of the machine code can turn."""
+    def _turns(
+        self, head: int, blocks: Mapping[int, _Block], members: set[int], start: int, count: int | None
+    ) -> int | None:
+        """Return how often a loop of the machine code can turn; None where it is no loop of its own in the C."""
         if count is not None and _COPIES.match(self._name(start)):
-            return self._copy_turns(head, blocks, members, start, count)
+            return self._copy_turns(blocks, members, start, count)
         touched = self._touched(blocks, members)
-        if not touched:
-            raise _NoBound(f"a loop in {self._name(start)}")
+        if not touched:  # of an assignment of a struct, which a compiler may write as a loop
+            lines = [self.image.line_of(item.address) for at in members for item in blocks[at].items]
+            if not self.largest or not all(line is not None and line[0] == self.file for line in lines):
+                raise _NoBound(f"a loop in {self._name(start)}")
+            return self._copy_turns(blocks, members, start, self.largest)
         edges = {at: [t for t in blocks[at].after if t in members and t != head] for at in members}
         inner: set[int] = set()
         for part in _components(sorted(members), edges):
             if len(part) > 1 or part[0] in edges[part[0]]:
                 inner |= self._touched(blocks, set(part))
-        own = (touched - inner) or touched
+        own = touched - inner
+        return self._product(own, 0) if own else None
+
+    def _product(self, chosen: set[int], more: int) -> int:
+        """Return the trips of loops (each with `more` on top) that may lie in each other."""
         answer = 1
-        for function in {self.loops[k].function for k in own}:
-            answer *= self._deepest([k for k in own if self.loops[k].function == function])
+        for function in {self.loops[k].function for k in chosen}:
+            answer *= self._deepest([k for k in chosen if self.loops[k].function == function], more)
         return answer
 
-    def _deepest(self, chosen: Sequence[int]) -> int:
+    def _deepest(self, chosen: Sequence[int], more: int) -> int:
         """Return the greatest product of trips over loops that lie in each other."""
         best = 1
         for k in chosen:
             loop = self.loops[k]
             chain = [
-                self.loops[j]
-                for j in chosen
-                if self.loops[j].first <= loop.first and loop.last <= self.loops[j].last
+                self.loops[j] for j in chosen if self.loops[j].first <= loop.first and loop.last <= self.loops[j].last
             ]
             unbounded = next((item for item in chain if item.trips is None), None)
             if unbounded is not None:
                 raise _NoBound(f"the loop in line {unbounded.first} of {self.file}, whose trips are not fixed")
-            best = max(best, prod(item.trips or 0 for item in chain))
+            best = max(best, prod((item.trips or 0) + more for item in chain))
         return best
 
     def _touched(self, blocks: Mapping[int, _Block], members: Iterable[int]) -> set[int]:
@@ -472,9 +512,7 @@ class Analysis:
                     answer.add(max(around, key=lambda k: self.loops[k].first))
         return answer
 
-    def _copy_turns(
-        self, head: int, blocks: Mapping[int, _Block], members: set[int], start: int, count: int
-    ) -> int:
+    def _copy_turns(self, blocks: Mapping[int, _Block], members: set[int], start: int, count: int) -> int:
         """Return how often a loop of `memcpy` and its like turns: each turn moves a counter by a fixed stride.
 
         Counters of these routines span no more than the bytes they are given. The counter is one that a single
@@ -508,6 +546,12 @@ class Analysis:
         if start in self._busy:
             raise _NoBound(f"recursion through {self._name(start)}")
         self._busy.append(start)
+        most = self._deepest_stack(start, self._callee_stack)
+        self._busy.pop()
+        self._stacks[start] = most
+        return most
+
+    def _deepest_stack(self, start: int, callee: Callable[[int | str], int]) -> int:
         body = self._body(start)
         own = 8 if self.image.machine == "x86-64" else 0  # the address to return to
         depths, todo, most = {start: own}, [start], own
@@ -520,7 +564,9 @@ class Analysis:
                 if moved is None:
                     raise _NoBound(f"{self._name(start)}, whose stack pointer moves by what is not constant")
                 if item.address in calls:
-                    most = max(most, depth - (own if item.kind == "jump" else 0) + self._callee_stack(calls[item.address]))
+                    most = max(most, depth - (own if item.kind == "jump" else 0) + callee(calls[item.address]))
+                if saved := re.fullmatch(r"__riscv_save_(\d+)", self._name(calls.get(item.address, ""))):
+                    moved = 16 * (int(saved[1]) // 4 + 1)  # it returns with the registers saved on the stack
                 depth += 0 if item.conditional and item.kind == "return" else moved
                 most = max(most, depth)
             for target in body[at].after:
@@ -529,8 +575,6 @@ class Analysis:
                     todo.append(target)
                 elif depths[target] != depth:
                     raise _NoBound(f"{self._name(start)}, whose stack differs between paths")
-        self._busy.pop()
-        self._stacks[start] = most
         return most
 
     def _callee_stack(self, target: int | str) -> int:
@@ -613,8 +657,13 @@ def _components(nodes: Sequence[int], edges: Mapping[int, Sequence[int]]) -> lis
 def _changes(item: Instruction, register: str) -> bool:
     """Whether an instruction of a copying routine writes a register, judged by its text; rather yes than no."""
     first, *rest = re.split(r",\s*(?![^\[{]*[\]}])", item.operands)
-    if re.match(r"^(?:str|st|cmp|cmn|tst|c?\.?s[bhw]|b|c\.b|cb)", item.mnemonic) and item.mnemonic not in ("bic", "bfi"):
-        return f"[{register}]" in item.operands and bool(rest[1:]) or f"[{register}, " in item.operands and "!" in item.operands
+    if re.match(r"^(?:str|st|cmp|cmn|tst|c?\.?s[bhw]|b|c\.b|cb)", item.mnemonic) and item.mnemonic not in (
+        "bic",
+        "bfi",
+    ):
+        return (f"[{register}]" in item.operands and bool(rest[1:])) or (
+            f"[{register}, " in item.operands and "!" in item.operands
+        )
     if re.search(rf"\b{register}\b", first):
         return True
     if item.mnemonic.startswith("ldrd") and rest and rest[0] == register:
@@ -676,7 +725,7 @@ def _loaded(register: str, before: Sequence[Instruction]) -> int | None:
             value = (number << 12) & 0xFFFFFFFF
         elif item.mnemonic in ("movt",):
             value = None if value is None else (value & 0xFFFF) | (number << 16)
-        elif item.mnemonic in ("addi", "c.addi") and words[1] == register or item.mnemonic == "c.addi":
+        elif (item.mnemonic in ("addi", "c.addi") and words[1] == register) or item.mnemonic == "c.addi":
             value = None if value is None else (value + number) & 0xFFFFFFFF
         elif item.mnemonic in ("movw", "mov", "mov.w", "movs", "li", "c.li") or words[1] == "zero":
             value = number & 0xFFFFFFFF
@@ -697,7 +746,7 @@ def _sp_x86(item: Instruction, before: Sequence[Instruction]) -> int | None:
     if item.mnemonic == "lea" and words[0] == "rsp":
         found = re.fullmatch(r"\[rsp ([-+]) (0x[0-9a-f]+|\d+)\]", words[1])
         return None if not found else int(found[2], 0) * (1 if found[1] == "-" else -1)
-    if words[0] == "rsp" and item.mnemonic not in ("cmp", "test") or item.mnemonic in ("leave", "enter"):
+    if (words[0] == "rsp" and item.mnemonic not in ("cmp", "test")) or item.mnemonic in ("leave", "enter"):
         return None
     return 0
 

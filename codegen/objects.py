@@ -188,9 +188,7 @@ class Image:
             elif kind == "STT_FUNC" or (kind == "STT_NOTYPE" and in_code and binding == "STB_GLOBAL"):
                 known = self.functions.get(address)
                 if known is None or (binding == "STB_GLOBAL" and not known.is_global):
-                    self.functions[address] = Function(
-                        symbol.name, address, symbol["st_size"], binding != "STB_LOCAL"
-                    )
+                    self.functions[address] = Function(symbol.name, address, symbol["st_size"], binding != "STB_LOCAL")
             elif kind == "STT_OBJECT" and symbol["st_size"]:
                 self.objects.append(
                     DataObject(symbol.name, section.name, symbol["st_size"], _is_writable(section.name, section.flags))
@@ -253,11 +251,12 @@ class Image:
     def lines(self) -> list[tuple[int, str, int]]:
         """(address, file name, line) in order of address, from the debug information; empty without ``-g``.
 
-        Of a relocatable file only where all its code is in one section, since the addresses start anew in each.
+        Of a relocatable file only where all its code is in one section, since the addresses start anew in each, and not
+        of RISC-V, whose lines are relocated in ways that pyelftools does not know.
         """
         rows: list[tuple[int, str, int]] = []
         code = [section for section in self._sections.values() if section.flags & _EXECUTE and section.size]
-        if not self._elf.has_dwarf_info() or (self.is_relocatable and len(code) != 1):
+        if not self._elf.has_dwarf_info() or (self.is_relocatable and (len(code) != 1 or self.machine == "rv32")):
             return rows
         shift = code[0].base if self.is_relocatable else 0
         dwarf = self._elf.get_dwarf_info()
@@ -310,9 +309,8 @@ class Image:
         if raw is None:
             return None
         classify = {"x86-64": _classify_x86, "thumb": _classify_thumb, "rv32": self._classify_riscv}[self.machine]
-        kind, conditional, target = classify(raw)
-        if kind in ("jump", "call"):
-            target = self._relocated(raw, target)
+        kind, conditional, place = classify(raw)
+        target = self._relocated(raw, place) if kind in ("jump", "call") else place
         return Instruction(address, raw.size, raw.mnemonic, raw.op_str, kind, conditional, target, raw)
 
     def _relocated(self, raw: Any, target: int | None) -> int | str | None:
@@ -322,13 +320,14 @@ class Image:
         found = next((self._fixed[place] for place in places if place in self._fixed), None)
         if found is None:
             return target
-        where, addend = found
+        where: int | str = found[0]
+        addend: int = found[1]
         if isinstance(where, str):
             return where
         if self.machine == "x86-64":
             return where + addend + 4
         if self.machine == "thumb":
-            return where + ((target or raw.address) - raw.address)
+            return where + int((target or raw.address) - raw.address)
         return where + addend
 
     def _classify_riscv(self, raw: Any) -> tuple[str, bool, int | None]:
@@ -356,7 +355,7 @@ class Image:
             return "jump", True, at
         if opcode == 0x67:
             offset = _signed(word >> 20, 12)
-            if rd == 0 and rs1 == 1 and not offset and not self._is_upper(raw.address - 4, rs1):
+            if rd == 0 and rs1 in (1, 5) and not offset and not self._is_upper(raw.address - 4, rs1):
                 return "return", False, None
             before = self.word(raw.address - 4, 4)
             far = None
@@ -529,5 +528,5 @@ def _classify_compressed(word: int, address: int) -> tuple[str, bool, int | None
         if bit(12):
             return ("call" if register else "trap"), False, None
         if register:
-            return ("return" if register == 1 else "jump"), False, None
+            return ("return" if register in (1, 5) else "jump"), False, None
     return "plain", False, None

@@ -23,6 +23,7 @@ from .emit import CText, emit, generator_version, templates
 from .findings import CheckResult, Findings, Mismatch
 from .folder import MEASURED, FolderError, check_folder_is_free, read_manifest, write_files, write_folder
 from .fuzz import fuzz_source
+from .host_gates import measure_gates
 from .layout import default_params
 from .on_target import chosen_targets, measure_targets
 from .options import Options
@@ -106,6 +107,7 @@ Measurement = Callable[[Draft], Findings]
 
 MEASUREMENTS: list[tuple[str, Measurement]] = [
     ("vectors", lambda draft: Findings([run_vectors(draft.block.name, draft.files)])),
+    ("gates", lambda draft: measure_gates(draft.block, draft.options, draft.text, draft.check)),
     ("coverage", lambda draft: _coverage(draft)),
     ("targets", lambda draft: measure_targets(draft.block, draft.options, draft.text, draft.check)),
 ]
