@@ -90,12 +90,6 @@ class Node:
         graph = self.graph
         return graph.make("select", graph.make("lt", self, graph.const(low)), graph.const(low), self)
 
-    def root_of_excess(self, top: float) -> Node:
-        """Return sqrt(top / self) where self is above a number, else 1."""
-        graph = self.graph
-        root = graph.make("sqrt", graph.make("div", graph.const(top), self))
-        return graph.make("select", graph.make("lt", graph.const(top), self), root, graph.const(1.0))
-
     def __add__(self, other: Node) -> Node:
         return self.graph.make("add", self, other)
 

@@ -27,6 +27,7 @@ from ..symbolic.program import (
     Element,
     Entry,
     Evaluate,
+    HoldFactors,
     HoldVariances,
     IsSet,
     Kernel,
@@ -502,6 +503,11 @@ class CoreWriter:
         base = ("&" if statement.size == 1 else "") + self._base(statement.target)
         self._line("")
         self._comment("judge, then commit")
+        if isinstance(statement, HoldFactors):
+            self._line(f"status = {self.prefix}_hold_factors({base});")
+            self.functions.add("hold_variances")
+            self.versions[statement.target] += 1
+            return
         self._open(f"if (!{self.prefix}_is_bounded({base}))")
         self._line(f"status = {self.prefix}_hold_variances({base});")
         self.functions.add("hold_variances")

@@ -12,8 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from .kalman import Answer, KalmanOracle, Status
+from .kalman import Answer, Filter, KalmanOracle, Refused, Status
 from .model import Array, Model, packed, unpacked
+
+TINY = 1.0e-30
+"""Least pivot of Q that is divided by."""
 
 
 def factorised(covariance: Array) -> Array:
@@ -61,6 +64,24 @@ def _with_rounded_ends(model: Model, precision: type) -> Model:
     )
 
 
+class FactoredFilter(Filter):
+    """The filter of the textbook, told of noise by its factors: what makes Q indefinite is left out."""
+
+    def accepted_noise(self, Q: Array) -> Array:
+        """Return U max(D, 0) U' of Q; a negative variance is refused."""
+        if not np.all(np.diag(Q) >= 0):
+            raise Refused(Status.NOT_POSITIVE)
+        rest, total = Q.copy(), np.zeros_like(Q)
+        for j in range(len(Q) - 1, -1, -1):
+            if rest[j, j] > TINY:
+                column = rest[:, j] / rest[j, j]
+                column[j + 1 :] = 0
+                part = rest[j, j] * np.outer(column, column)
+                rest -= part
+                total += part
+        return total
+
+
 class FactoredOracle:
     """The filter of `KalmanOracle` with the factors of its covariance as memory.
 
@@ -77,6 +98,8 @@ class FactoredOracle:
     def __init__(self, model: Model):
         self.model = model
         self._inside = {kind: KalmanOracle(_with_rounded_ends(model, kind)) for kind in (np.float64, np.float32)}
+        for oracle in self._inside.values():
+            oracle.filter_type = FactoredFilter
 
     def call(
         self,

@@ -718,7 +718,7 @@ class _Builder:
                 [how, *dynamics_equations(plant)],
                 self._predict_origins(f_pattern, q_pattern),
             ),
-            self.form.propagate(f_place, f_pattern, q_place, q_pattern, f_names, q_names),
+            *self.form.propagate(f_place, f_pattern, q_place, q_pattern, f_names, q_names),
             *self.form.hold(),
             self._judge(),
         ]
@@ -1085,12 +1085,10 @@ class _Builder:
         def scales(memory: Mapping[str, Any]) -> dict[str, Any]:
             return sigma_of(plant.states, self.form, memory)
 
-        return Scenario(
-            exercise.calls,
-            lambda rng: self.form.memory(exercise.memory(rng)),
-            scales,
-            "dt" if isinstance(plant.dt, tuple) else "",
-        )
+        def memory(rng: np.random.Generator) -> dict[str, Any]:
+            return self.form.memory(exercise.memory(rng))
+
+        return Scenario(exercise.calls, memory, scales, "dt" if isinstance(plant.dt, tuple) else "", self.form.scaled)
 
     def _derivative_checks(self, model: textbook.Model, block: Block) -> list[DerivativeCheck]:
         """F and each H as the block evaluates them, beside complex step and central differences of f and h."""

@@ -15,29 +15,23 @@ from .factors import (
     FactoredCongruence,
     FactoredInnovationVariance,
     FactoredRowUpdate,
-    FactorsAbove,
-    FactorsBelow,
-    FactorVariances,
     ScaleFactors,
     covariance_of,
 )
 from .kernels import AllStatesUpdate, Congruence, InnovationVariance, JosephRowUpdate, Pattern, RowUpdate, Scale
 from .program import (
     AllOf,
-    AnyOf,
     Array,
     Assign,
     AssignElement,
     Compare,
     Element,
+    HoldFactors,
     HoldVariances,
     Kernel,
     Place,
-    Raise,
     Refuse,
     Statement,
-    When,
-    Within,
     packed_index,
     packed_size,
     unpack_symmetric,
@@ -102,9 +96,9 @@ class Conventional:
         q_pattern: Pattern,
         f_names: tuple[str, ...],
         q_names: tuple[str, ...],
-    ) -> Kernel:
+    ) -> list[Statement]:
         """P = F P F' + Q."""
-        return Congruence(self.size, f, f_pattern, self.before, q, q_pattern, self.after, f_names, q_names)
+        return [Congruence(self.size, f, f_pattern, self.before, q, q_pattern, self.after, f_names, q_names)]
 
     def innovation_variance(self, rows: Rows, r_pattern: Pattern, r_names: tuple[str, ...]) -> Kernel:
         """Diagonal of H P H' + R at the prior."""
@@ -159,6 +153,10 @@ class Conventional:
         """Return P (n, n) of a memory."""
         return unpack_symmetric(np.asarray(memory[self.field], dtype=float), self.size)
 
+    def scaled(self, memory: Mapping[str, Any], factor: float) -> dict[str, Any]:
+        """Return the field of a memory whose covariance is multiplied by a factor."""
+        return {self.field: np.asarray(memory[self.field], dtype=float) * factor}
+
     def sizes(self, memory: Mapping[str, Any], sigma: Array) -> Array:
         """Return the natural size of an error in each element of the field."""
         return np.outer(sigma, sigma)[np.triu_indices(self.size)]
@@ -210,9 +208,13 @@ class Factored(Conventional):
         q_pattern: Pattern,
         f_names: tuple[str, ...],
         q_names: tuple[str, ...],
-    ) -> Kernel:
-        """Thornton's time update."""
-        return FactoredCongruence(self.size, f, f_pattern, self.before, q, q_pattern, self.after, f_names, q_names)
+    ) -> list[Statement]:
+        """Thornton's time update; negative noise is refused."""
+        diagonal = [Element(q, k) for k, (i, j) in enumerate(q_pattern) if i == j]
+        return [
+            Refuse(Status.NOT_POSITIVE, AllOf(tuple(Compare(item, ">=", 0.0) for item in diagonal))),
+            FactoredCongruence(self.size, f, f_pattern, self.before, q, q_pattern, self.after, f_names, q_names),
+        ]
 
     def innovation_variance(self, rows: Rows, r_pattern: Pattern, r_names: tuple[str, ...]) -> Kernel:
         """Diagonal of H U D U' H' + R at the prior."""
@@ -247,26 +249,7 @@ class Factored(Conventional):
 
     def hold(self) -> list[Statement]:
         """Keep variances below their ceilings and D above its floors, refuse what cannot be."""
-        n, variances = self.size, Place("local", "spread")
-        diagonal = [Element(self.after, packed_index(n, i, i)) for i in range(n)]
-        above = AnyOf(tuple(Compare(Element(variances, i), ">", top) for i, top in enumerate(self.ceiling)))
-        below = AnyOf(tuple(Compare(item, "<", low) for item, low in zip(diagonal, self.floor, strict=True)))
-        own = self.signal()
-        return [
-            Refuse(Status.NOT_POSITIVE, AllOf(tuple(Compare(item, ">=", 0.0) for item in diagonal))),
-            FactorVariances(n, self.after, variances),
-            When(
-                above,
-                (FactorsBelow(n, self.after, variances, self.ceiling, self.after), Raise(Status.CLAMPED)),
-                comment="a variance above its ceiling?",
-            ),
-            When(
-                below,
-                (FactorsAbove(n, self.after, self.floor, self.after), Raise(Status.CLAMPED)),
-                comment="an element of D below its floor?",
-            ),
-            Refuse(Status.OVERFLOW, Within(self.after, own.low, own.high)),
-        ]
+        return [HoldFactors(self.after, self.size, self.floor, self.ceiling)]
 
     def oracle(self, model: textbook.Model) -> Any:
         """Return the independent view."""
@@ -280,6 +263,13 @@ class Factored(Conventional):
     def covariance(self, memory: Mapping[str, Any]) -> Array:
         """Return P (n, n) of a memory."""
         return covariance_of(np.asarray(memory[self.field], dtype=float), self.size)
+
+    def scaled(self, memory: Mapping[str, Any], factor: float) -> dict[str, Any]:
+        """Return the field of a memory whose covariance is multiplied by a factor, as far as D may go."""
+        answer = np.array(memory[self.field], dtype=float)
+        places = [packed_index(self.size, i, i) for i in range(self.size)]
+        answer[places] = np.clip(answer[places] * factor, self.floor, self.ceiling)
+        return {self.field: answer}
 
     def sizes(self, memory: Mapping[str, Any], sigma: Array) -> Array:
         """Return for each element the change that moves some element of P by its sigma_i sigma_j."""
