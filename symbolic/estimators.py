@@ -789,7 +789,12 @@ class _Builder:
         if self.form.takes_all_states(rows):
             rows = replace(rows, residual=Place("out", "innovation"))
         body += self.form.update(rows)
-        body.append(Refuse(Status.NOT_POSITIVE, _all_above(Place("local", "row_variance"), m, SMALLEST_VARIANCE)))
+        # what rounding leaves of a variance that is zero is to be seen beside that of the prior
+        row_variance, prior = Place("local", "row_variance"), Place("out", "variance")
+        positive = tuple(
+            Compare(Element(row_variance, i), ">=", SMALLEST_VARIANCE, Element(prior, i)) for i in range(m)
+        )
+        body.append(Refuse(Status.NOT_POSITIVE, AllOf(positive)))
         finite = Within(Place("local", "nis"), (0.0,), (LARGEST_NIS,))
         body.append(Refuse(Status.OVERFLOW, finite))
         body.append(Assign(Place("out", "nis"), Place("local", "nis"), 1))
