@@ -984,16 +984,20 @@ def _wrap_condition(text: str, indent: str) -> list[str]:
 
 
 def wrap_signature(text: str) -> list[str]:
-    """Break a function head after commas, aligned with its first parameter."""
+    """Break a function head after commas, aligned with its first parameter; with a long name, below the name."""
     if len(text) <= WIDTH:
         return [text]
     column = text.index("(") + 1
-    lines, current = [], ""
-    for part in text.split(", "):
-        candidate = current + (", " if current else "") + part
+    parts = text[column:].split(", ")
+    lines, current, indent = [], text[:column], " " * column
+    if column + max(len(part) for part in parts) + 1 > WIDTH:
+        lines, current, indent = [text[:column]], "    ", "    "
+    start = current
+    for part in parts:
+        candidate = current + ("" if current == start or current == indent else ", ") + part
         if len(candidate) + 1 > WIDTH:
             lines.append(current + ",")
-            current = " " * column + part
+            current = indent + part
         else:
             current = candidate
     return [*lines, current]
