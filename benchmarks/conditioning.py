@@ -240,8 +240,9 @@ def measure(cases: tuple[Case, ...] = CASES) -> list[dict[str, Any]]:
                     lost += 1
                     first = first or k
                 sigma = np.array([mpmath.sqrt(exact_p[i, i]) for i in range(12)])
-                worst_x = _largest(worst_x, (x - exact_x) / sigma)
-                worst_p = _largest(worst_p, (P - exact_p) / np.outer(sigma, sigma))
+                with np.errstate(invalid="ignore"):  # not a number where the covariance is lost
+                    worst_x = _largest(worst_x, (x - exact_x) / sigma)
+                    worst_p = _largest(worst_p, (P - exact_p) / np.outer(sigma, sigma))
             rows.append(
                 {
                     "case": case.name, "form": form, "steps_until_lost": None if first is None else first - 1,

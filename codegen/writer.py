@@ -994,7 +994,7 @@ def wrap_signature(text: str) -> list[str]:
         lines, current, indent = [text[:column]], "    ", "    "
     start = current
     for part in parts:
-        candidate = current + ("" if current == start or current == indent else ", ") + part
+        candidate = current + ("" if current in (start, indent) else ", ") + part
         if len(candidate) + 1 > WIDTH:
             lines.append(current + ",")
             current = indent + part

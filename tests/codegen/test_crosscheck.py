@@ -124,7 +124,9 @@ def test_a_commit_before_the_judgement_is_caught(block):
 
 
 def test_a_range_check_left_out_is_caught(block):
-    views = with_c(block, lambda source: source.replace("((push >= -5.0) == true) && ((push <= 5.0) == true) && ", "", 1))
+    views = with_c(
+        block, lambda source: source.replace("((push >= -5.0) == true) && ((push <= 5.0) == true) && ", "", 1)
+    )
     assert "native = reference" in failed(cross_check(block, views=views, steps=30))
 
 
