@@ -58,7 +58,7 @@ def _with_rounded_ends(model: Model, precision: type) -> Model:
         inputs=tuple(map(ends, model.inputs)),
         params=tuple(map(ends, model.params)),
         sensors=tuple(map(ends, model.sensors)),
-        dt=tuple(float(precision(item)) for item in model.dt) if isinstance(model.dt, tuple) else model.dt,
+        dt=(float(precision(model.dt[0])), float(precision(model.dt[1]))) if isinstance(model.dt, tuple) else model.dt,
         floor=model.floor.astype(precision).astype(float),
         ceiling=model.ceiling.astype(precision).astype(float),
     )

@@ -245,17 +245,19 @@ class FactoredRowUpdate(Kernel):
         answer = list(packed)
         # f = U' h, g = D f; a is the variance of the innovation as far as the states up to j make it
         f = [_total([terms.get(j), *[_product(upper[i][j], terms[i]) for i in terms if i < j]]) for j in range(n)]
-        a, per_a = r[self.row], None
+        a: Any = r[self.row]
+        per_a: Any = None
         gain: list[Any] = [None] * n
         for j in range(n):
             if f[j] is None:
                 continue
             g = diagonal[j] * f[j]
-            before, per_before = a, per_a
+            before: Any = a
+            per_before: Any = per_a
             a = before + f[j] * g
             per_a = a.reciprocal_above(SMALLEST_VARIANCE).named(f"per_a_{j}")
             answer[packed_index(n, j, j)] = (diagonal[j] * (before * per_a)).named(f"new_d_{j}")
-            loss = None if per_before is None else (-(f[j] * per_before)).named(f"loss_{j}")
+            loss: Any = None if per_before is None else (-(f[j] * per_before)).named(f"loss_{j}")
             for i in range(j):
                 u = upper[i][j]
                 if gain[i] is not None and loss is not None:

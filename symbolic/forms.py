@@ -281,7 +281,7 @@ class Factored(Conventional):
         seen = np.max(np.abs(upper) / sigma[:, None], axis=0)  # of each column of U, in sigma
         answer = sigma[:, None] / (weights * seen)[None, :]
         answer[np.diag_indices(n)] = 1.0 / seen**2
-        return answer[np.triu_indices(n)]
+        return np.asarray(answer[np.triu_indices(n)])
 
 
 FORMS: dict[str, type[Conventional]] = {form.name: form for form in (Conventional, Joseph, Factored)}
