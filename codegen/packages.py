@@ -14,6 +14,11 @@ from .style import comment_safe
 PAGE = "https://example.invalid/{name}"
 """Arduino's format asks for a page. It is the user's to have; a name that is nobody's holds its place."""
 
+NAMES_OF_CMAKE = frozenset(
+    "all clean depend edit_cache help install package package_source preinstall rebuild_cache test".split()
+)
+"""Targets that CMake's generators make themselves: no target of ours may be called so."""
+
 LONGEST_SENTENCE = 200
 """Characters of a description: what every registry takes."""
 
@@ -65,6 +70,7 @@ def package_files(block: Block, options: Options, context: dict[str, Any]) -> di
         "sentence": sentence_of(block),
         "contraction": "fast" if options.contract else "off",
         "url": PAGE.format(name=name),
+        "target": f"{name}_library" if name in NAMES_OF_CMAKE else name,
     }
     rendered = {
         "CMakeLists.txt": "CMakeLists.txt.j2",

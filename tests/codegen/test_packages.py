@@ -73,6 +73,9 @@ set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 set(CMAKE_C_FLAGS_INIT "-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard")
 """
 
+CORTEX_M4 = "-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard".split()
+MACHINE = "-M mps2-an386 -nographic -monitor none -serial none -semihosting-config enable=on,target=native".split()
+
 STARTUP = """
 #include <stdint.h>
 
@@ -304,11 +307,47 @@ def test_for_a_cortex_m4_the_users_project_is_linked_and_runs_with_the_same_bits
     build = tmp_path / "build"
     run("cmake", "-S", project, "-B", build, *options, f"-DCMAKE_PREFIX_PATH={prefix}")
     run("cmake", "--build", build)
-    machine = "-M mps2-an386 -nographic -monitor none -serial none -semihosting-config enable=on,target=native".split()
-    assert run("qemu-system-arm", *machine, "-kernel", build / "user_c").strip() == expected()
+    assert run("qemu-system-arm", *MACHINE, "-kernel", build / "user_c").strip() == expected()
     # the package of the host is not taken for it
     said = run("cmake", "-S", project, "-B", tmp_path / "x", *options, f"-DCMAKE_PREFIX_PATH={installed}", fails=True)
     assert "(64bit)" in said
+
+
+def test_a_cortex_m4_runs_the_vectors_by_ctest(folder, tmp_path, needs):
+    needs("cmake", "ctest", "arm-none-eabi-gcc", "qemu-system-arm")
+    (tmp_path / "startup.c").write_text(STARTUP)
+    (tmp_path / "m4.ld").write_text(SCRIPT)
+    run("arm-none-eabi-gcc", *CORTEX_M4, "-c", tmp_path / "startup.c", "-o", tmp_path / "startup.o")
+    link = f"{tmp_path / 'startup.o'} --specs=rdimon.specs -nostartfiles -T {tmp_path / 'm4.ld'}"
+    emulator = f'set(CMAKE_CROSSCOMPILING_EMULATOR "qemu-system-arm;{";".join(MACHINE)};-kernel")\n'
+    (tmp_path / "m4.cmake").write_text(f'{TOOLCHAIN}{emulator}set(CMAKE_EXE_LINKER_FLAGS_INIT "{link}")\n')
+    build = tmp_path / "build"
+    run("cmake", "-S", folder, "-B", build, f"-DCMAKE_TOOLCHAIN_FILE={tmp_path / 'm4.cmake'}")
+    run("cmake", "--build", build)
+    said = run("ctest", "--test-dir", build, "--no-tests=error", "--verbose")
+    assert re.search(r"[1-9]\d* vectors, 0 failed", said)
+    source = folder / f"src/{NAME}.c"
+    source.write_text(source.read_text().replace("delta[0] = ", "delta[0] = 1.1f * ", 1))
+    run("cmake", "--build", build)
+    assert f"{NAME}_vectors (Failed)" in run("ctest", "--test-dir", build, fails=True)
+
+
+@pytest.mark.parametrize("name", ["test", "install"])
+def test_a_name_that_cmake_keeps_to_itself(name, tmp_path, needs):
+    needs("cmake", "ctest", "cc")
+    block = Block(name)
+    block.entry("step", inputs=[block.input("raw", range=(-1, 1))], outputs={}, following={})
+    write_files(tmp_path / name, build_files(block, "float"))
+    build = install(tmp_path / name, tmp_path / "installed")
+    assert "100% tests passed" in run("ctest", "--test-dir", build, "--no-tests=error")
+    user = tmp_path / "user"
+    user.mkdir()
+    (user / "user.c").write_text(f"#include <{name}.h>\nint main(void) {{ return {name}_model()[0] == 0; }}\n")
+    take = f"find_package({name} REQUIRED)\nadd_executable(user user.c)\ntarget_link_libraries(user {name}::{name})\n"
+    (user / "CMakeLists.txt").write_text(f"cmake_minimum_required(VERSION 3.13)\nproject(user C)\n{take}")
+    run("cmake", "-S", user, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={tmp_path / 'installed'}")
+    run("cmake", "--build", tmp_path / "build")
+    run(tmp_path / "build/user")
 
 
 # -- PlatformIO, Arduino, Zephyr --------------------------------------------------------------------------------------
@@ -618,7 +657,7 @@ def test_a_block_that_lacks_something_is_exported_and_its_vectors_can_fail(name,
 
 @pytest.mark.parametrize("compiler", ["gcc", "clang"])
 @pytest.mark.parametrize("precision", ["double", "float"])
-def test_every_c_file_of_such_a_block_compiles_without_a_warning(compiler, precision, tmp_path, needs):
+def test_every_c_file_and_the_sketch_of_such_a_block_compile_without_a_warning(compiler, precision, tmp_path, needs):
     needs(compiler)
     for name in LACKING:
         folder = tmp_path / name
@@ -626,5 +665,16 @@ def test_every_c_file_of_such_a_block_compiles_without_a_warning(compiler, preci
         files = [str(path) for path in sorted(folder.rglob("*.c"))]
         assert len(files) == 4
         command = [compiler, "-std=c99", "-O2", *WARNINGS, f"-I{folder / 'src'}", "-fsyntax-only", *files]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        assert done.returncode == 0, done.stderr
+        run(*command)
+        sketch = (folder / f"examples/{name}/{name}.ino").read_text()
+        (folder / "sketch.cpp").write_text(ARDUINO + sketch)
+        run(
+            compiler,
+            "-std=gnu++11",
+            "-Wall",
+            "-Wextra",
+            "-Werror",
+            "-fsyntax-only",
+            f"-I{folder}/src",
+            folder / "sketch.cpp",
+        )
