@@ -381,7 +381,9 @@ def _with_element(record: Record, signal: Signal, value: float, rng: np.random.G
 
 
 def _scaled_arrays(record: Record, block: Block, factor: float) -> Record:
-    """Return a copy with every field of mixed range (a covariance) scaled: near its floor or its ceiling."""
+    """Return a copy as uncertain times a factor: near the floors or the ceilings of its variances."""
+    if block.scenario is not None and block.scenario.scaled is not None:
+        return fill(record.copy(), block.scenario.scaled(flatten(record), factor))
     fields = flatten(record)
     names = [s.name for s in block.memory_signals_flat() if s.kind is Kind.REAL and s.uniform_range is None]
     return fill(record.copy(), {name: fields[name] * fields[name].dtype.type(factor) for name in names})

@@ -15,7 +15,7 @@ import jinja2
 from ..symbolic.block import Block
 from ..symbolic.errors import ModelError
 from ..symbolic.kernels import AllStatesUpdate
-from ..symbolic.program import Entry, HoldVariances, packed_index, walk
+from ..symbolic.program import Entry, HoldFactors, HoldVariances, packed_index, walk
 from ..symbolic.signals import STATUS_TEXT, Kind, Signal, Status
 from .layout import default_text, struct_lines
 from .mathematics import CHOICES, OWN, mathematics_note, mathematics_text
@@ -355,6 +355,9 @@ class _Emitter:
             "ceilings": [self.precision.literal(item) for item in hold.ceiling],
             "diagonal": [(packed_index(size, i, i), self.precision.literal(item)) for i, item in enumerate(hold.floor)],
         }
+        if isinstance(hold, HoldFactors):
+            text = templates().get_template("hold_factors.c.j2").render(**context, one=self.precision.literal(1.0))
+            return text.rstrip("\n").split("\n")
         text = templates().get_template("hold_variances.c.j2").render(**context)
         return [
             *text.rstrip("\n").split("\n"), *bounded_helper(prefix, self.precision, size, hold.floor, limits)

@@ -81,6 +81,15 @@ class Node:
         enough = graph.make("ge", self, graph.const(limit))
         return graph.make("div", graph.const(1.0), graph.make("select", enough, self, graph.const(1.0)))
 
+    def positive_part(self) -> Node:
+        """Return self, or 0 where it is negative; NaN stays."""
+        return self.at_least(0.0)
+
+    def at_least(self, low: float) -> Node:
+        """Return self, or a number where self is below it; NaN stays."""
+        graph = self.graph
+        return graph.make("select", graph.make("lt", self, graph.const(low)), graph.const(low), self)
+
     def __add__(self, other: Node) -> Node:
         return self.graph.make("add", self, other)
 

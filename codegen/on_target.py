@@ -6,18 +6,21 @@ import hashlib
 import math
 import re
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..symbolic.block import Block
+from .bounds import Analysis, Bound, source_loops
 from .crosscheck import DOUBLE_BOUND, CrossCheck, FrozenStream, Probe, compare_answers, default_scenario
 from .emit import CText
 from .emulator import Call, TargetView
 from .findings import CheckResult, Findings, Mismatch
+from .gates import object_gates
 from .layout import flatten, inputs_dtype, memory_dtype, outputs_dtype, params_dtype
+from .objects import read_image
 from .options import Options
 from .targets import Sizes, Target, TargetError, find_emulator, find_toolchain, linked_library, target_named
 from .trace import Trace, TraceCall
@@ -119,7 +122,7 @@ def run_on_target(view: TargetView, native: View, check: CrossCheck, ours: Trace
     theirs = view.run(ours)
     difference = first_difference(ours, theirs, "native", name)
     exact = agrees_bit_for_bit(view.text, view.contract)
-    lockstep = _equal_answers(label, probes, answers)
+    lockstep = equal_answers(label, probes, answers)
     if _may_misround(view) and not (lockstep.passed and difference is None):
         exact = False
     if not exact:
@@ -132,10 +135,11 @@ def run_on_target(view: TargetView, native: View, check: CrossCheck, ours: Trace
         free.note = "bit for bit"
     else:
         free.note = f"reported, not judged: up to {drift(block, ours, theirs):.1e} apart; {_why_not_exact(view)}"
-    facts = {**_target_facts(view), "free_run": {**_free_facts(theirs), "equal_to_host": difference is None}}
+    costs = _target_costs(view)
+    facts = {**costs.facts, "free_run": {**_free_facts(theirs), "equal_to_host": difference is None}}
     if not exact:
         facts["free_run"]["worst"] = float(f"{drift(block, ours, theirs):.3g}")
-    return Findings([lockstep, free], facts)
+    return Findings([lockstep, free, *costs.checks], facts)
 
 
 def _may_misround(view: TargetView) -> bool:
@@ -165,7 +169,7 @@ def _fields(answer: Answer) -> Iterator[tuple[str, Any]]:
             yield f"{where} {name}", value
 
 
-def _equal_answers(label: str, probes: list[Probe], answers: list[Answer]) -> CheckResult:
+def equal_answers(label: str, probes: list[Probe], answers: list[Answer]) -> CheckResult:
     """Compare answers of the target with those of the native view: status and every bit of memory and outputs."""
     result = CheckResult(label, True, calls=len(probes), note="bit for bit")
     left, right = label.split(" = ")
@@ -270,8 +274,8 @@ def _host_facts(target: Target, text: CText, contract: bool) -> dict[str, Any]:
     }
 
 
-def _target_facts(view: TargetView) -> dict[str, Any]:
-    """Return sizes, instructions and stack of a target.
+def _target_costs(view: TargetView) -> Findings:
+    """Return sizes, instructions and stack of a target, with their bounds, and the gates of its object file.
 
     Raises
     ------
@@ -282,6 +286,9 @@ def _target_facts(view: TargetView) -> dict[str, Any]:
     with tempfile.TemporaryDirectory(prefix="plantc-") as name:
         whole = linked_library(view.toolchain, view.text, list(block.entries), Path(name), contract=view.contract)
         linked, own = Sizes.of(whole), Sizes.of(Path(name) / f"{block.name}.o")
+        image = read_image(Path(name) / f"{block.name}.o")
+        checks = object_gates(image, view.text, target.name)
+        analysis = analysis_of(block, view.text, whole)
     assert own is not None, "targets are ELF"
     assert linked is not None, "targets are ELF"
     stack = max(item.stack for item in view.most.values())
@@ -294,7 +301,13 @@ def _target_facts(view: TargetView) -> dict[str, Any]:
                 f"model smaller, take --precision float, or state a larger chip by --{option}"
             )
     entries = [name for name in block.entries if name in view.most]
-    return {
+    bounds = {name: analysis.instructions(f"{block.name}_{name}") for name in entries}
+    depths = {name: analysis.stack(f"{block.name}_{name}") for name in entries}
+    checks.append(
+        within("instructions", view, {name: (view.most[name].instructions, bounds[name]) for name in entries})
+    )
+    checks.append(within("stack", view, {name: (view.most[name].stack, depths[name]) for name in entries}))
+    facts = {
         "description": target.description,
         "fpu": target.fpu,
         "toolchain": view.toolchain.as_dict(view.contract),
@@ -309,8 +322,42 @@ def _target_facts(view: TargetView) -> dict[str, Any]:
         },
         "instructions": {name: view.most[name].instructions for name in entries},
         "stack": {name: view.most[name].stack for name in entries},
-        "note": "the most seen on the traces; instructions, not cycles; stack in bytes, callees included",
+        "instruction_bound": {name: _told(bound) for name, bound in bounds.items()},
+        "stack_bound": {name: _told(bound) for name, bound in depths.items()},
+        "symbols": {
+            "needed": image.undefined,
+            "linked": sorted({item for name in entries for item in analysis.callees(f"{block.name}_{name}")}),
+        },
+        "note": "the most seen on the traces, and bounds from the disassembled control flow; instructions, not cycles; "
+        "stack in bytes, callees included",
     }
+    return Findings(checks, facts)
+
+
+def analysis_of(block: Block, text: CText, program: Path) -> Analysis:
+    """Return what can be said of a linked program of a block from its machine code."""
+    largest = max(
+        memory_dtype(block, text.precision).itemsize,
+        *(outputs_dtype(entry, text.precision).itemsize for entry in block.entries.values() if entry.outputs),
+        0,
+    )
+    return Analysis(read_image(program), source_loops(text.source), f"{block.name}.c", largest)
+
+
+def within(what: str, view: TargetView, entries: Mapping[str, tuple[int, Bound]]) -> CheckResult:
+    """Check that what was seen of each entry is not above its bound; what has no bound is not judged."""
+    above = [
+        f"{name}: {seen} seen, the bound is {bound}"
+        for name, (seen, bound) in entries.items()
+        if isinstance(bound, int) and seen > bound
+    ]
+    known = sum(isinstance(bound, int) for _, bound in entries.values())
+    note = "; ".join(above) or f"{known} of {len(entries)} entries have a bound"
+    return CheckResult(f"{view.target.name}: {what} within the bound", not above, calls=known, note=note)
+
+
+def _told(bound: Bound) -> int | str:
+    return bound if isinstance(bound, int) else str(bound)
 
 
 def _instance(view: TargetView) -> int:

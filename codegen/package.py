@@ -24,9 +24,11 @@ from .findings import CheckResult, Findings, Mismatch
 from .fmu import build_fmu, check_fmu, check_fmu_is_possible
 from .folder import MEASURED, FolderError, check_folder_is_free, read_manifest, write_files, write_folder
 from .fuzz import fuzz_source
+from .host_gates import measure_gates
 from .layout import default_params
 from .on_target import chosen_targets, measure_targets
 from .options import Options
+from .packages import package_files
 from .report import report_html
 from .style import Precision
 from .traceability import trace_text
@@ -106,6 +108,7 @@ Measurement = Callable[[Draft], Findings]
 
 MEASUREMENTS: list[tuple[str, Measurement]] = [
     ("vectors", lambda draft: Findings([run_vectors(draft.block.name, draft.files)])),
+    ("gates", lambda draft: measure_gates(draft.block, draft.options, draft.text, draft.check)),
     ("coverage", lambda draft: _coverage(draft)),
     ("targets", lambda draft: measure_targets(draft.block, draft.options, draft.text, draft.check)),
 ]
@@ -129,7 +132,7 @@ def build_files(block: Block, options: Options | str = "double") -> dict[str, st
     text = emit(block, precision, mathematics=chosen.mathematics)
     vectors = choose_vectors(block, precision, _rare_calls(block, precision))
     name = block.name
-    context = {
+    context: dict[str, Any] = {
         "name": name,
         "upper": name.upper(),
         "version": generator_version(),
@@ -138,18 +141,15 @@ def build_files(block: Block, options: Options | str = "double") -> dict[str, st
     }
     entry = block.entries["step"] if "step" in block.entries else list(block.entries.values())[-1]
     inputs = _middle_text(entry.inputs, chosen.precision)
-    main = (
-        templates()
-        .get_template("example_main.c.j2")
-        .render(**context, entry=entry.name, inputs=inputs, outputs=bool(entry.outputs))
-    )
+    context |= {"entry": entry.name, "inputs": inputs, "outputs": bool(entry.outputs)}
+    main = templates().get_template("example_main.c.j2").render(**context)
     files = {
         f"src/{name}.h": text.header,
         f"src/{name}.c": text.source,
         "test/test_vectors.c": vectors_source(block, precision, vectors),
         "examples/example_main.c": wrapped(main),
         "verify/fuzz_main.c": fuzz_source(block, chosen.precision),
-        "CMakeLists.txt": templates().get_template("CMakeLists.txt.j2").render(**context),
+        **package_files(block, chosen, context),
     }
     files["trace.json"] = trace_text(block, text, vectors.vectors)
     manifest = _manifest(block, chosen, text, files, len(vectors.vectors))

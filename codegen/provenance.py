@@ -26,6 +26,7 @@ from ..symbolic.program import (
     Element,
     Entry,
     Evaluate,
+    HoldFactors,
     HoldVariances,
     IsSet,
     Kernel,
@@ -307,6 +308,10 @@ class Genealogy:
                 return self.of_kernels([statement])
             case Refuse():
                 return self._judgement(statement)
+            case HoldFactors():
+                return self.parent(
+                    "judgement", f"{statement.target.name}: variances below ceilings, D above its floors"
+                )
             case HoldVariances():
                 return self.parent("judgement", f"{statement.target.name}: variances between floor and ceiling")
             case When():

@@ -59,7 +59,7 @@ class FuzzResult:
     def read(cls, said: str, ended: int) -> FuzzResult:
         """Read what a harness and its sanitizers printed."""
         found = _SUMMARY.search(said)
-        numbers = [int(item) for item in found.groups()] if found else [0, 0, 0]
+        calls, refused, lost = (int(item) for item in found.groups()) if found else (0, 0, 0)
         statuses: dict[str, dict[str, int]] = {}
         if found:
             for name, text in _ENTRY.findall(said):
@@ -68,7 +68,7 @@ class FuzzResult:
         complaints = list(dict.fromkeys(_COMPLAINT.findall(said)))
         if ended and not complaints:
             complaints = [f"the harness ended with {ended}: {said.strip()[-300:]}"]
-        return cls(*numbers, statuses, complaints, ended)
+        return cls(calls, refused, lost, statuses, complaints, ended)
 
     def facts(self) -> dict[str, Any]:
         """Return it for JSON."""
@@ -105,7 +105,7 @@ def build(compiler: str, flags: Sequence[str], folder: Path, files: Sequence[str
     AuditError
         If the compiler refuses the C.
     """
-    command = [tool(compiler), *BASE, *flags, "-I", "src", *files, "-lm", "-o", target]
+    command = [tool(compiler), *BASE, *flags, "-I", "src", *files, "-lm", "-o", str(target)]
     done = run_tool(command, folder)
     if done.returncode != 0:
         said = done.stderr.strip()

@@ -185,6 +185,11 @@ def crafted(block: Block, view: View, probes: Sequence[Probe], missing: frozense
             yield probe(fill(late.copy(), values), up, limited)
             for ends in _ends(entry.inputs):
                 yield probe(fill(memory.copy(), values), fill(up.copy(), ends), params)
+        # a variance that was held is at its limit, which a reading after it would see: too near for a vector
+        for values in _bad_fields(block.memory_signals_flat(), flatten(memory)):
+            for given in (down, *(alone if len(alone) > 1 else [])):
+                yield probe(fill(memory.copy(), values), given, params)
+                yield probe(fill(late.copy(), values), given, limited)
 
 
 def _bad_fields(signals: Sequence[Signal], values: dict[str, Any]) -> Iterator[dict[str, Any]]:

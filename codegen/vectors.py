@@ -171,6 +171,10 @@ def vectors_source(block: Block, precision: str, table: VectorTable) -> str:
     """
     kind = Precision(precision)
     sizes = _sizes(block, NativeView(block, precision), InterpretView(block), NativeView(block, precision).params())
+    memory = _comparisons(block.memory_group().members, "state", "wanted")
+    called = {vector.entry for vector in table.vectors}
+    outputs = {entry.name: _comparisons(entry.outputs, "answer", "expected") for entry in block.entries.values()}
+    compared = memory + [item for name in called for item in outputs[name]]
     text = (
         templates()
         .get_template("test_vectors.c.j2")
@@ -191,11 +195,12 @@ def vectors_source(block: Block, precision: str, table: VectorTable) -> str:
                     entry.name,
                     table.inputs[entry.name],
                     table.outputs[entry.name],
-                    _comparisons(entry.outputs, "answer", "expected"),
+                    outputs[entry.name],
                 )
                 for entry in block.entries.values()
             ],
-            memory_comparisons=_comparisons(block.memory_group().members, "state", "wanted"),
+            memory_comparisons=memory,
+            compares_reals=any(kind not in ("status", "count") for kind, _, _, _ in compared),
             scales=table.text(block.memory_group().members, table.rounded(sizes)),
             vectors=table.vectors,
             statuses=[(status.name, int(status)) for status in Status],

@@ -27,6 +27,7 @@ from ..symbolic.program import (
     Element,
     Entry,
     Evaluate,
+    HoldFactors,
     HoldVariances,
     IsSet,
     Kernel,
@@ -502,6 +503,11 @@ class CoreWriter:
         base = ("&" if statement.size == 1 else "") + self._base(statement.target)
         self._line("")
         self._comment("judge, then commit")
+        if isinstance(statement, HoldFactors):
+            self._line(f"status = {self.prefix}_hold_factors({base});")
+            self.functions.add("hold_variances")
+            self.versions[statement.target] += 1
+            return
         self._open(f"if (!{self.prefix}_is_bounded({base}))")
         self._line(f"status = {self.prefix}_hold_variances({base});")
         self.functions.add("hold_variances")
@@ -978,16 +984,20 @@ def _wrap_condition(text: str, indent: str) -> list[str]:
 
 
 def wrap_signature(text: str) -> list[str]:
-    """Break a function head after commas, aligned with its first parameter."""
+    """Break a function head after commas, aligned with its first parameter; with a long name, below the name."""
     if len(text) <= WIDTH:
         return [text]
     column = text.index("(") + 1
-    lines, current = [], ""
-    for part in text.split(", "):
-        candidate = current + (", " if current else "") + part
+    parts = text[column:].split(", ")
+    lines, current, indent = [], text[:column], " " * column
+    if column + max(len(part) for part in parts) + 1 > WIDTH:
+        lines, current, indent = [text[:column]], "    ", "    "
+    start = current
+    for part in parts:
+        candidate = current + ("" if current in (start, indent) else ", ") + part
         if len(candidate) + 1 > WIDTH:
             lines.append(current + ",")
-            current = " " * column + part
+            current = indent + part
         else:
             current = candidate
     return [*lines, current]

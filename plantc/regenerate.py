@@ -15,6 +15,7 @@ from .codegen.targets import TARGETS, installed_targets
 from .examples.attitude_ekf import attitude_ekf
 from .examples.pendulum import pendulum_ekf
 from .examples.quadrotor_ekf import quadrotor_ekf, quadrotor_kf
+from .examples.quadrotor_ud import quadrotor_ud
 from .symbolic import Block
 
 EXAMPLES: list[tuple[Block, str]] = [
@@ -22,6 +23,7 @@ EXAMPLES: list[tuple[Block, str]] = [
     (quadrotor_ekf, "double"),
     (quadrotor_kf, "double"),
     (attitude_ekf, "float"),
+    (quadrotor_ud, "float"),
 ]
 """Block and precision of everything under `generated_c/`."""
 

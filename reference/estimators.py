@@ -6,11 +6,13 @@ Nothing here knows CasADi, C, or a derivative that somebody else made: f and h c
 from __future__ import annotations
 
 from .exercise import Exercise
+from .factors import FactoredOracle, factorised
 from .kalman import KalmanOracle, Status, derivative
 from .model import InputModel, Model, NoiseModel, SensorModel, StateModel
 
 __all__ = [
     "Exercise",
+    "FactoredOracle",
     "InputModel",
     "KalmanOracle",
     "Model",
@@ -19,4 +21,5 @@ __all__ = [
     "StateModel",
     "Status",
     "derivative",
+    "factorised",
 ]

@@ -52,7 +52,9 @@ class Status(enum.IntEnum):
     OVERFLOW = -4
 
 
-class _Refused(Exception):  # noqa: N818 - it is an outcome, not an error
+class Refused(Exception):  # noqa: N818 - it is an outcome, not an error
+    """An entry refuses a call, with this status."""
+
     def __init__(self, status: Status):
         super().__init__(status.name)
         self.status = status
@@ -83,6 +85,7 @@ class KalmanOracle:
 
     def __init__(self, model: Model):
         self.model = model
+        self.filter_type: type[Filter] = Filter
 
     def call(
         self,
@@ -110,7 +113,7 @@ class KalmanOracle:
         memory, outputs : dict
             Name -> array; empty if the status is negative.
         """
-        filter_ = _Filter(self.model, params, precision)
+        filter_ = self.filter_type(self.model, params, precision)
         before = filter_.memory(memory) if entry != "init" else {}
         with np.errstate(all="ignore"):
             try:
@@ -126,13 +129,13 @@ class KalmanOracle:
                     sensor = self.model.sensor(entry.removeprefix("update_"))
                     gate = filter_.params[f"gate_{sensor.name}"][0]
                     status, after, outputs = filter_.update(sensor, before, inputs, gate)
-            except _Refused as refusal:
+            except Refused as refusal:
                 return int(refusal.status), {}, {}
         return int(status), after, outputs
 
 
-class _Filter:
-    """One call: model, parameters and precision. Methods return (status, memory, outputs) or raise _Refused."""
+class Filter:
+    """One call: model, parameters and precision. Methods return (status, memory, outputs) or raise Refused."""
 
     def __init__(self, model: Model, params: Mapping[str, Any], precision: Precision):
         self.model, self.precision = model, precision
@@ -150,7 +153,7 @@ class _Filter:
         """Start from the parameters."""
         for item in self.model.params:
             if not self.within(self.params[item.name], item.low, item.high):
-                raise _Refused(Status.BAD_PARAM)
+                raise Refused(Status.BAD_PARAM)
         for name in self.full_matrices():
             self.require_definite(unpacked(self.params[name]), Status.BAD_PARAM)
         x = stack([f"{state.name}_0" for state in self.model.states], self.params, self.precision)
@@ -158,7 +161,7 @@ class _Filter:
             if state.kind == "attitude":
                 square = np.sum(x[at] * x[at])
                 if not self.precision(0.98) <= square <= self.precision(1.02):
-                    raise _Refused(Status.BAD_PARAM)
+                    raise Refused(Status.BAD_PARAM)
                 x[at] = x[at] / np.sqrt(square)
         variances = stack([f"variance_{state.name}_0" for state in self.model.states], self.params, self.precision)
         status, P = self.held(np.diag(variances))
@@ -177,7 +180,7 @@ class _Filter:
             dt = self.precision(model.dt)
         x, P = self.estimate(memory)
         u = stack_inputs(model, inputs, self.precision)
-        Q = process_covariance(model, x, u, self.p, dt, self.params)
+        Q = self.accepted_noise(process_covariance(model, x, u, self.p, dt, self.params))
         x_after, F = transition(model, x, u, self.p, dt)
         status, P = self.held(F @ P @ F.T + Q)
         self.judge(P, x_after)
@@ -201,7 +204,7 @@ class _Filter:
         whitened = solve_triangular(root, innovation, lower=True, check_finite=False)
         nis = np.sum(whitened * whitened)
         if not nis <= 1e30:  # or NaN: no answer, and not to be counted as gated
-            raise _Refused(Status.OVERFLOW)
+            raise Refused(Status.OVERFLOW)
         outputs = {"innovation": innovation, "variance": np.diag(S).copy(), "nis": np.array([nis])}
         counter = f"rejected_{sensor.name}"
         if not (gate <= 0 or nis <= gate):
@@ -242,7 +245,7 @@ class _Filter:
                         status = max(status, inflated, Status.RECOVERED)
                     own, memory, report = self.update(sensor, memory, inputs, gate)
                     status = max(status, own)
-                except _Refused as refusal:
+                except Refused as refusal:
                     own, memory, status = refusal.status, before, max(highest, Status.SKIPPED)
             outputs[f"status_{sensor.name}"] = np.array([own], dtype=np.int32)
             outputs |= {f"{sensor.name}.{name}": value for name, value in report.items()}
@@ -258,6 +261,10 @@ class _Filter:
             name = f"rejected_{sensor.name}"
             answer[name] = np.array(given[name], dtype=np.uint32).ravel()
         return answer
+
+    def accepted_noise(self, Q: Array) -> Array:
+        """Return the process noise that is used: as it is."""
+        return Q
 
     def estimate(self, memory: Memory) -> tuple[Array, Array]:
         """Return x and P."""
@@ -298,13 +305,13 @@ class _Filter:
         for item in signals:
             value = np.asarray(inputs[item.name], dtype=self.precision).ravel()
             if not self.within(value, item.low, item.high):
-                raise _Refused(Status.BAD_INPUT)
+                raise Refused(Status.BAD_INPUT)
 
     def require_definite(self, matrix: Array, otherwise: Status) -> Array:
         """Return the Cholesky factor of a matrix; refuse one with a pivot below the smallest variance."""
         L, d = ldl(matrix)
         if not np.all(d >= self.precision(SMALLEST_VARIANCE)):
-            raise _Refused(otherwise)
+            raise Refused(otherwise)
         return np.asarray(L * np.sqrt(d))
 
     def held(self, P: Array) -> tuple[Status, Array]:
@@ -316,7 +323,7 @@ class _Filter:
         P = (P + P.T) / 2
         variances = np.diag(P)
         if not np.all(variances >= 0):
-            raise _Refused(Status.NOT_POSITIVE)
+            raise Refused(Status.NOT_POSITIVE)
         above, below = variances > self.ceiling, variances < self.floor
         scale = np.where(above, np.sqrt(self.ceiling / variances), self.precision(1))
         P = P * np.outer(scale, scale)
@@ -329,7 +336,7 @@ class _Filter:
         for state, at, _ in self.model.places:
             ok = ok and (x is None or self.within(x[at], state.low, state.high))
         if not ok:
-            raise _Refused(Status.OVERFLOW)
+            raise Refused(Status.OVERFLOW)
 
 
 def derivative(model: Model, name: str, how: str) -> Callable[[Mapping[str, Any]], Array]:

@@ -98,12 +98,15 @@ class Scenario:
         Memory -> field -> natural size of an error (sigma), or None if it is not known.
     gaps : str
         Name of the input that is the time step, for traces with long gaps.
+    scaled : callable
+        (memory, factor) -> fields of a memory that is as uncertain times the factor, or None if it has no covariance.
     """
 
     calls: Callable[[np.random.Generator, int], Iterator[tuple[str, dict[str, Any]]]]
     memory: Callable[[np.random.Generator], dict[str, Any]]
     scales: Callable[[Mapping[str, Any]], dict[str, Any]] | None = None
     gaps: str = ""
+    scaled: Callable[[Mapping[str, Any], float], dict[str, Any]] | None = None
 
 
 class Block:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import casadi as ca
@@ -16,17 +16,8 @@ from .block import Block, DerivativeCheck, Scenario
 from .discretisation import process_covariance, transition
 from .errors import ModelError
 from .expressions import equation_text, number_text, numpy_callable, tape
-from .kernels import (
-    SMALLEST_VARIANCE,
-    AllStatesUpdate,
-    Congruence,
-    Decorrelate,
-    InnovationVariance,
-    Pattern,
-    Pivots,
-    RowUpdate,
-    Scale,
-)
+from .forms import Conventional, Rows, form_named
+from .kernels import SMALLEST_VARIANCE, Decorrelate, Pattern, Pivots
 from .names import check_unique
 from .origins import Origin
 from .plant import HIGHEST_VARIANCE, LOWEST_VARIANCE, Noise, Plant, Sensor, State, Symbol, wrap
@@ -34,7 +25,6 @@ from .program import (
     AllOf,
     AnyOf,
     Assign,
-    AssignElement,
     Attempt,
     Call,
     Compare,
@@ -42,8 +32,8 @@ from .program import (
     Element,
     Entry,
     Evaluate,
-    HoldVariances,
     IsSet,
+    Kernel,
     Place,
     Raise,
     Refuse,
@@ -52,8 +42,6 @@ from .program import (
     When,
     Within,
     packed_index,
-    packed_size,
-    unpack_symmetric,
 )
 from .signals import Kind, Signal, Status, power_of_unit, spread
 
@@ -62,9 +50,6 @@ LARGEST_NIS = 1.0e30
 """A normalised innovation squared beyond it, or NaN, is refused (OVERFLOW): it is no answer, and must not be counted."""
 
 Targets = tuple[tuple[Place, int], ...]
-
-COVARIANCE = Place("memory", "covariance")
-NEXT_COVARIANCE = Place("next", "covariance")
 
 
 def extended_kalman_filter(
@@ -77,6 +62,7 @@ def extended_kalman_filter(
     inflation: float = 100.0,
     variance_floor: Mapping[Any, float] | float | None = None,
     variance_ceiling: Mapping[Any, float] | float | None = None,
+    form: str = "conventional",
     float_bound: float = 0.05,
     name: str | None = None,
     doc: str = "",
@@ -103,6 +89,10 @@ def extended_kalman_filter(
     variance_floor, variance_ceiling : float or dict, optional
         Bounds of the variances in memory. Default 1e-20 and 1e9; 10 rad^2 above for an attitude, beyond which it is
         unknown all around.
+    form : {"conventional", "joseph", "ud"}
+        How the covariance is kept and updated: as itself, by scalar updates; as itself, each row in Joseph's form; or as
+        factors U D U' (Bierman 1977, Thornton 1976), which stay positive definite in single precision with a sharp
+        sensor and a vague prior. With "ud" a floor bounds the elements of D.
     float_bound : float
         Largest accepted difference of the single-precision C from double precision in one call, in sigma.
     name : str, optional
@@ -131,6 +121,7 @@ def extended_kalman_filter(
         variance_floor,
         variance_ceiling,
         float_bound,
+        form,
     )
     return _Builder(plant, options).build()
 
@@ -242,6 +233,7 @@ class _Options:
     floor: Mapping[Any, float] | float | None
     ceiling: Mapping[Any, float] | float | None
     float_bound: float
+    form: str
 
 
 def _name_of(key: Symbol | str) -> str:
@@ -307,6 +299,7 @@ class _Builder:
         self.ceiling = self._per_error(options.ceiling, "variance_ceiling", 1e-30, 1e15)
         if any(low >= high for low, high in zip(self.floor, self.ceiling, strict=True)):
             raise ModelError(f"{name}: a variance floor is not below its ceiling; lower variance_floor")
+        self.form = form_named(options.form, name)(self.n, self.floor, self.ceiling)
         self.noise_symbols: list[tuple[Signal, ca.SX]] = []
         self._declare()
 
@@ -520,14 +513,7 @@ class _Builder:
             block.param_signals.append(
                 Signal(f"variance_{state.signal.name}_0", size, unit, low, high, doc, default=default)
             )
-        lows, highs = [], []
-        for i in range(self.n):
-            for j in range(i, self.n):
-                top = math.sqrt(self.ceiling[i] * self.ceiling[j])
-                lows.append(self.floor[i] if i == j else -top)
-                highs.append(self.ceiling[i] if i == j else top)
-        doc = "covariance of the error, upper triangle by rows"
-        block.memory_signals.append(Signal("covariance", packed_size(self.n), "", tuple(lows), tuple(highs), doc))
+        block.memory_signals.append(self.form.signal())
         for sensor in plant.sensors:
             name = f"rejected_{sensor.signal.name}"
             doc = f"readings of {sensor.signal.name} gated in a row; stays at its largest value"
@@ -646,9 +632,6 @@ class _Builder:
         )
         return targets, names
 
-    def _hold(self) -> HoldVariances:
-        return HoldVariances(NEXT_COVARIANCE, self.n, self.floor, self.ceiling)
-
     def _judge(self) -> Refuse:
         return Refuse(Status.OVERFLOW, self.block.judge_memory([state.signal.name for state in self.plant.states]))
 
@@ -680,20 +663,16 @@ class _Builder:
                 body.append(Refuse(Status.BAD_PARAM, near))
             else:
                 body.append(Assign(Place("next", name), Place("param", f"{name}_0"), state.signal.size))
-        body.append(Assign(NEXT_COVARIANCE, 0.0, packed_size(self.n)))
-        for state in plant.states:
-            size = state.error_at.stop - state.error_at.start
-            for i in range(size):
-                k = state.error_at.start + i
-                body.append(
-                    AssignElement(
-                        Element(NEXT_COVARIANCE, packed_index(self.n, k, k)),
-                        Element(Place("param", f"variance_{state.signal.name}_0"), i),
-                    )
-                )
+        body += self.form.start(
+            [
+                Element(Place("param", f"variance_{state.signal.name}_0"), i)
+                for state in plant.states
+                for i in range(state.error_at.stop - state.error_at.start)
+            ]
+        )
         for sensor in plant.sensors:
             body.append(Assign(Place("next", f"rejected_{sensor.signal.name}"), 0.0, 1))
-        body.append(self._hold())
+        body += self.form.hold()
         doc = "Start (or start again) from the initial estimate in the parameters; every parameter is checked here."
         return Entry("init", (), (), tuple(body), doc, checks_params=True)
 
@@ -740,8 +719,8 @@ class _Builder:
                 [how, *dynamics_equations(plant)],
                 self._predict_origins(f_pattern, q_pattern),
             ),
-            Congruence(self.n, f_place, f_pattern, COVARIANCE, q_place, q_pattern, NEXT_COVARIANCE, f_names, q_names),
-            self._hold(),
+            *self.form.propagate(f_place, f_pattern, q_place, q_pattern, f_names, q_names),
+            *self.form.hold(),
             self._judge(),
         ]
         inputs = [symbol.signal for symbol in plant.inputs]
@@ -786,13 +765,12 @@ class _Builder:
         comment = [
             f"residual{tail(i)} = {name}{tail(i)} - {subtracted(text)}{wrapped}" for i, text in enumerate(expected)
         ]
+        rows = Rows(m, residual, h, h_pattern, r, (False,) * m, h_names, r_names, e_names)
         body: list[Statement] = [
             self._evaluate(
                 f"measure_{name}", reads, outputs, comment, self._measure_origins(sensor, comment, h_pattern, r_pattern)
             ),
-            InnovationVariance(
-                n, m, h, h_pattern, r, r_pattern, COVARIANCE, Place("out", "variance"), h_names, r_names
-            ),
+            self.form.innovation_variance(rows, r_pattern, r_names),
             Assign(Place("out", "innovation"), residual, m),
         ]
         if not diagonal:
@@ -806,38 +784,18 @@ class _Builder:
             h_names = tuple(f"wh_{i}_{j}" for i, j in h_pattern)
             r_names = tuple(f"d_{i}" for i in range(m))
             e_names = tuple(f"we_{i}" for i in range(m))
-        columns = [[j for i, j in h_pattern if i == row] for row in range(m)]
         at = [[k for k, (i, _) in enumerate(h_pattern) if i == row] for row in range(m)]
-        single = [diagonal and len(item) == 1 and _is_one(h_values[item[0]]) for item in at]
-        whole = AllStatesUpdate.serves(n, columns, single)
-        if whole:
-            residual = Place("out", "innovation")
-        updates = []
-        for row in range(m):
-            source = COVARIANCE if row == 0 else NEXT_COVARIANCE
-            text = f"row {row}: " if m > 1 else ""
-            tail_text = "; the measured row as r K" if single[row] else ""
-            updates.append(
-                RowUpdate(
-                    n,
-                    row,
-                    residual,
-                    m,
-                    h,
-                    h_pattern,
-                    r,
-                    m,
-                    source,
-                    NEXT_COVARIANCE,
-                    single[row],
-                    h_names,
-                    r_names,
-                    e_names,
-                    (f"{text}d = d + K e, P = P - K s K'{tail_text}",),
-                )  # fmt: skip
-            )
-        body += [AllStatesUpdate(tuple(updates))] if whole else updates
-        body.append(Refuse(Status.NOT_POSITIVE, _all_above(Place("local", "row_variance"), m, SMALLEST_VARIANCE)))
+        single = tuple(diagonal and len(item) == 1 and _is_one(h_values[item[0]]) for item in at)
+        rows = Rows(m, residual, h, h_pattern, r, single, h_names, r_names, e_names)
+        if self.form.takes_all_states(rows):
+            rows = replace(rows, residual=Place("out", "innovation"))
+        body += self.form.update(rows)
+        # what rounding leaves of a variance that is zero is to be seen beside that of the prior
+        row_variance, prior = Place("local", "row_variance"), Place("out", "variance")
+        positive = tuple(
+            Compare(Element(row_variance, i), ">=", SMALLEST_VARIANCE, Element(prior, i)) for i in range(m)
+        )
+        body.append(Refuse(Status.NOT_POSITIVE, AllOf(positive)))
         finite = Within(Place("local", "nis"), (0.0,), (LARGEST_NIS,))
         body.append(Refuse(Status.OVERFLOW, finite))
         body.append(Assign(Place("out", "nis"), Place("local", "nis"), 1))
@@ -846,7 +804,12 @@ class _Builder:
         body.append(
             When(
                 accepted,
-                (*self._correct(name), Assign(Place("next", f"rejected_{name}"), 0.0, 1), self._hold(), self._judge()),
+                (
+                    *self._correct(name),
+                    Assign(Place("next", f"rejected_{name}"), 0.0, 1),
+                    *self.form.hold(),
+                    self._judge(),
+                ),
                 (Restore(), CountUp(Place("next", f"rejected_{name}")), Raise(Status.GATED)),
                 "accepted?",
             )
@@ -934,28 +897,12 @@ class _Builder:
         ]
         body.append(self._evaluate(f"correct_{sensor}", reads, outputs, comment))
         if plant.has_attitude:
-            body.append(
-                Congruence(
-                    self.n,
-                    reset,
-                    pattern,
-                    NEXT_COVARIANCE,
-                    None,
-                    (),
-                    NEXT_COVARIANCE,
-                    g_names,
-                    comment=("P = G P G', G = I - [d]x / 2 for an attitude",),
-                )  # fmt: skip
-            )
+            body.append(self.form.reset(reset, pattern, g_names))
         return body
 
     def _inflate(self) -> Entry:
-        size = packed_size(self.n)
         factor = Signal("factor", low=(1.0,), high=(1e6,), doc="factor on the covariance")
-        body = (
-            Scale(size, Place("in", "factor"), COVARIANCE, NEXT_COVARIANCE, ("P = factor P",), self.n),
-            self._hold(),
-        )
+        body = (self.form.inflate(Place("in", "factor")), *self.form.hold())
         doc = "Multiply the covariance by a factor and leave the estimate: after a disturbance the model does not know."
         return Entry("inflate", (factor,), (), body, doc)
 
@@ -1030,7 +977,7 @@ class _Builder:
             block.name,
         )
         model = self._textbook_model(measurements)
-        block.oracle = textbook.KalmanOracle(model)
+        block.oracle = self.form.oracle(model)
         block.scenario = self._scenario(model)
         block.derivative_checks = self._derivative_checks(model, block)
         return block
@@ -1053,7 +1000,7 @@ class _Builder:
             )
         if any(noise.is_density for noise in self.plant.process_noises):
             lines.append("Noise densities are integrated over the step.")
-        lines.append("Covariance packed (upper triangle by rows); one scalar update for each sensor row.")
+        lines.append(self.form.note)
         return lines
 
     # -- independence -------------------------------------------------------------------------------------------------
@@ -1142,9 +1089,12 @@ class _Builder:
         )
 
         def scales(memory: Mapping[str, Any]) -> dict[str, Any]:
-            return sigma_of(plant.states, self.n, memory)
+            return sigma_of(plant.states, self.form, memory)
 
-        return Scenario(exercise.calls, exercise.memory, scales, "dt" if isinstance(plant.dt, tuple) else "")
+        def memory(rng: np.random.Generator) -> dict[str, Any]:
+            return self.form.memory(exercise.memory(rng))
+
+        return Scenario(exercise.calls, memory, scales, "dt" if isinstance(plant.dt, tuple) else "", self.form.scaled)
 
     def _derivative_checks(self, model: textbook.Model, block: Block) -> list[DerivativeCheck]:
         """F and each H as the block evaluates them, beside complex step and central differences of f and h."""
@@ -1153,8 +1103,8 @@ class _Builder:
         functions += [(f"H_{sensor.name}", block.entries[f"update_{sensor.name}"], "h") for sensor in model.sensors]
         for name, entry, local in functions:
             evaluate = next(item for item in entry.body if isinstance(item, Evaluate))
-            kernel = next(item for item in entry.body if isinstance(item, (Congruence, InnovationVariance)))
-            pattern = kernel.f_pattern if isinstance(kernel, Congruence) else kernel.h_pattern
+            kernel: Any = next(item for item in entry.body if isinstance(item, Kernel))
+            pattern = kernel.f_pattern if name == "F" else kernel.h_pattern
             rows = self.n if name == "F" else entry.inputs[0].size
             checks.append(
                 DerivativeCheck(
@@ -1185,15 +1135,14 @@ def _ours(evaluate: Evaluate, local: str, pattern: Pattern, shape: tuple[int, in
     return at
 
 
-def sigma_of(states: list[State], n: int, memory: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the standard deviation of each field of a filter's memory, from its covariance."""
-    P = unpack_symmetric(np.asarray(memory["covariance"], dtype=float), n)
-    sigma = np.sqrt(np.maximum(np.diag(P), 1e-300))
+def sigma_of(states: list[State], form: Conventional, memory: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the natural size of an error in each field of a filter's memory, from its covariance."""
+    sigma = np.sqrt(np.maximum(np.diag(form.covariance(memory)), 1e-300))
     answer: dict[str, Any] = {}
     for state in states:
         own = sigma[state.error_at]
         answer[state.signal.name] = np.full(4, 0.5 * float(np.max(own))) if state.attitude else own
-    answer["covariance"] = np.outer(sigma, sigma)[np.triu_indices(n)]
+    answer[form.field] = form.sizes(memory, sigma)
     return answer
 
 

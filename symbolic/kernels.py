@@ -221,6 +221,44 @@ class RowUpdate(Kernel):
 
 
 @dataclass(frozen=True)
+class JosephRowUpdate(RowUpdate):
+    """One row of a measurement in Joseph's form: P = (I - K H) P (I - K H)' + K r K'.
+
+    Positive semidefinite whatever gain rounding leaves, at about twice the cost of `RowUpdate`.
+    """
+
+    def scalar(self, *values: list[Any]) -> list[list[Any]]:
+        """A = (I - K H) P, then A (I - K H)' + K r K', upper triangle."""
+        residual, h, r, p = values[:4]
+        n, r_i = self.size, r[self.row]
+        terms = [(j, value) for (i, j), value in zip(self.h_pattern, h, strict=True) if i == self.row]
+        cross = [_total([value * p[packed_index(n, k, j)] for j, value in terms]) for k in range(n)]
+        variance = (_total([value * cross[j] for j, value in terms]) + r_i).named("s")
+        per_variance = variance.reciprocal_above(SMALLEST_VARIANCE).named("per_s")
+        innovation = residual[self.row]
+        if self.row > 0:
+            innovation = innovation - _total([value * values[4][j] for j, value in terms])
+        innovation = innovation.named("e")
+        gain = [(item * per_variance).named(f"k_{k}") for k, item in enumerate(cross)]
+        # element (i, j) of A is p_ij - k_i (h P)_j; of A h', (P h')_i - k_i h P h'
+        spread = variance - r_i
+        kept = [item - gain[k] * spread for k, item in enumerate(cross)]
+        noisy = [item * r_i for item in gain]
+        updated = []
+        for i in range(n):
+            for j in range(i, n):
+                half = p[packed_index(n, i, j)] - gain[i] * cross[j]
+                updated.append((half - kept[i] * gain[j]) + noisy[i] * gain[j])
+        nis = innovation * (innovation * per_variance)
+        delta = [item * innovation for item in gain]
+        if self.row > 0:
+            delta = [old + new for old, new in zip(values[4], delta, strict=True)]
+            nis = values[5][0] + nis
+        scales = [variance if k == self.row else None for k in range(self.rows)]
+        return [updated, delta, [nis], scales]
+
+
+@dataclass(frozen=True)
 class AllStatesUpdate(Kernel):
     """The rows of a sensor that measures every state, in their order: one after another, as `RowUpdate`.
 

@@ -460,6 +460,60 @@ class HoldVariances:
 
 
 @dataclass(frozen=True)
+class HoldFactors(HoldVariances):
+    """Keep the variances of U D U' below ceilings and D above floors; the target packs D on the diagonal, U beside it.
+
+    An element of D that is negative, or NaN, is refused (NOT_POSITIVE). A variance above its ceiling c has its row and
+    column scaled by sqrt(c / P_ii); an element of D below its floor is raised to it (CLAMPED). Any element of U beyond
+    sqrt(c_i / floor_j), or NaN, is refused (OVERFLOW).
+    """
+
+    def limits(self) -> tuple[float, ...]:
+        """Return the largest magnitude of each packed element."""
+        return tuple(
+            self.ceiling[i] if i == j else math.sqrt(self.ceiling[i] / self.floor[j])
+            for i in range(self.size)
+            for j in range(i, self.size)
+        )
+
+    def run(self, frame: Frame) -> None:
+        packed = np.array(frame.values[self.target], dtype=float)
+        n, diagonal = self.size, [packed_index(self.size, i, i) for i in range(self.size)]
+        floor, ceiling = np.array(self.floor), np.array(self.ceiling)
+        before = frame.values.get(Place("memory", self.target.name))
+        frame.visited(self, "looked at closely")
+        for at, low in zip(diagonal, floor, strict=True):
+            frame.near(float(packed[at]), 0.0, None if before is None else float(before[at]))
+            frame.near(float(packed[at]), float(low))
+        if not np.all(packed[diagonal] >= 0):
+            raise Refused(Status.NOT_POSITIVE)
+        with np.errstate(all="ignore"):
+            table = np.zeros((n, n))
+            table[np.triu_indices(n)] = packed
+            upper, weights = np.triu(table, 1) + np.eye(n), np.diag(table).copy()
+            variances = (upper * upper) @ weights
+            scale = np.where(variances > ceiling, np.sqrt(ceiling / variances), 1.0)
+            for variance, high in zip(variances, ceiling, strict=True):
+                frame.near(float(variance), float(high))
+            if np.any(variances > ceiling):
+                for outcome in ("", ", not the first", ", not the last"):
+                    frame.visited(self, f"above the ceiling{outcome}")
+                frame.raise_to(Status.CLAMPED)
+                upper, weights = upper * np.outer(scale, 1.0 / scale), weights * scale**2
+            if np.any(weights < floor):
+                frame.visited(self, "below the floor")
+                frame.raise_to(Status.CLAMPED)
+            table = np.triu(upper, 1)
+            table[np.diag_indices(n)] = np.maximum(weights, floor)
+            packed = table[np.triu_indices(n)]
+        for value, limit in zip(packed, self.limits(), strict=True):
+            frame.near(abs(float(value)), limit)
+        frame.values[self.target] = packed
+        if not np.all(np.abs(packed) <= self.limits()):
+            raise Refused(Status.OVERFLOW)
+
+
+@dataclass(frozen=True)
 class Call:
     """Run another entry on the current memory.
 

@@ -102,8 +102,12 @@ def test_what_a_page_shows_runs(path, tmp_path, monkeypatch, plantc, needs):
                     done = plantc(*words[1:])
                     status, text = done.status, done.err
                 else:
-                    if words[0] == "cc":
-                        needs("cc")
+                    if words[0] in ("cc", "cmake", "ctest"):
+                        needs(words[0])
+                    if "pkg-config" in command:
+                        needs("pkg-config")
+                    if "m4" in command:
+                        needs("arm-none-eabi-gcc")
                     run = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
                     status, text = run.returncode, run.stdout + run.stderr
                 assert status == 0, f"{where}: {command}: {text}"

@@ -109,7 +109,7 @@ def test_the_word_is_nowhere(checkout):
 
 # -- analysers --------------------------------------------------------------------------------------------------------
 
-UNSET = ("    float sum_0 = 0.0f;\n", "    float sum_0;\n")
+UNSET = ("    bool held = true;\n", "    bool held;\n")
 
 
 @pytest.mark.parametrize(

@@ -6,8 +6,10 @@ import pytest
 from plantc.codegen import coverage
 from plantc.codegen.coverage import measure_coverage
 from plantc.codegen.emit import emit
-from plantc.codegen.package import _rare_calls, build_files
+from plantc.codegen.package import _rare_calls, build_files, export
 from plantc.examples.pendulum import pendulum_ekf
+from plantc.symbolic import Block
+from plantc.symbolic.composition import connect
 
 
 @pytest.fixture(scope="module")
@@ -98,3 +100,34 @@ def test_the_large_examples_leave_nothing_to_the_corpus(shape_named, needs, name
     assert all(item["reason"] != coverage.ONLY_CORPUS for item in found.facts["coverage"]["unreachable"])
     counted = found.facts["coverage"]["branches"]
     assert counted["reached"] >= counted["all"] - 16
+
+
+def filtered_encoder():
+    """A low-pass filter before an estimator, whose own entries a user can no longer call one by one."""
+    block = Block("low_pass", doc="first-order low-pass filter")
+    raw = block.input("raw", unit="rad", range=(-10, 10))
+    weight = block.parameter("weight", 0.1, range=(0, 1))
+    smooth = block.memory("smooth", initial=0.0, unit="rad", range=(-10, 10))
+    following = smooth + weight * (raw - smooth)
+    block.entry("step", inputs=[raw], following={smooth: following}, outputs={"filtered": following})
+    return connect({"low_pass": block, "ekf": pendulum_ekf}, {"ekf.encoder": "low_pass.filtered"}, "filtered_encoder")
+
+
+COMPOSITIONS = {
+    "filter and estimator": filtered_encoder,
+    "two estimators": lambda: connect({"left": pendulum_ekf, "right": pendulum_ekf}, {}, "two_pendulums"),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "precision"),
+    [("filter and estimator", "double"), ("filter and estimator", "float"), ("two estimators", "double")],
+)
+def test_compositions_of_estimators_export_in_full(name, precision, tmp_path, needs):
+    needs("gcc", "gcov")
+    done = export(COMPOSITIONS[name](), tmp_path, precision=precision, steps=50)
+    (check,) = [item for item in done.check.results if item.name == "vectors reach every statement"]
+    assert check.passed
+    counted = done.evidence["coverage"]["statements"]
+    assert counted["reached"] >= 0.93 * counted["all"]

@@ -95,29 +95,6 @@ def test_it_compiles_without_a_warning_as_c_and_the_header_as_cpp(name, precisio
     assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.parametrize("precision", PRECISIONS)
-def test_the_object_has_no_globals_and_only_symbols_of_the_mathematical_library(precision, tmp_path, needs):
-    needs("gcc", "nm", "size")
-    text = emit(attitude_ekf, precision)
-    (tmp_path / "attitude_ekf.h").write_text(text.header)
-    (tmp_path / "attitude_ekf.c").write_text(text.source)
-    subprocess.run(["gcc", *BASE_FLAGS, "-ffp-contract=off", "-c", "attitude_ekf.c"], cwd=tmp_path, check=True)
-    undefined = subprocess.run(
-        ["nm", "-u", "attitude_ekf.o"], cwd=tmp_path, capture_output=True, text=True, check=True
-    ).stdout
-    names = {line.split()[-1] for line in undefined.split("\n") if line.strip()}
-    suffix = "f" if precision == "float" else ""
-    allowed = {f"{name}{suffix}" for name in ("sqrt", "floor")} | {
-        "memcpy", "memset", "_GLOBAL_OFFSET_TABLE_", "__stack_chk_fail",
-    }  # fmt: skip
-    assert names <= allowed, names - allowed
-    numbers = subprocess.run(
-        ["size", "attitude_ekf.o"], cwd=tmp_path, capture_output=True, text=True, check=True
-    ).stdout
-    _, data, bss, *_ = numbers.split("\n")[1].split()
-    assert (data, bss) == ("0", "0")
-
-
 def test_the_quadrotor_step_has_twelve_divisions():
     operations = emit(quadrotor_ekf).operations
     assert operations["update_pose"]["division"] == 12

@@ -101,7 +101,7 @@ JUDGED = "if (status >= PENDULUM_EKF_OK)\n    {\n        *state = after;\n"
 
 FAULTS = {
     "commit before judging": (JUDGED, "if (true)\n    {\n        *state = after;\n", "the memory changed"),
-    "a range check removed": ("(fabsf(after->omega) <= 100.0f)", "(true)", "memory field omega"),
+    "a range check removed": (" && ((after->omega >= -100.0f) == true)", "", "memory field omega"),
     "an output written on refusal": (
         "const pendulum_ekf_status_t status = pendulum_ekf_update_encoder_core(",
         "out->nis = 0.0f;\n    const pendulum_ekf_status_t status = pendulum_ekf_update_encoder_core(",
@@ -136,15 +136,19 @@ def test_a_planted_fault_is_found(fault, folder, needs):
 
 def test_comparisons_that_nan_passes_are_found(folder, needs):
     needs("gcc")
-    plant(folder, "if (!(covariance[at] >= 0.0f))", "if (covariance[at] < 0.0f)")
-    plant(folder, "!(fabsf(covariance[i]) <= 1.0e9f)", "(fabsf(covariance[i]) > 1.0e9f)")
+    plant(folder, "if (!((covariance[at] >= 0.0f) == true))", "if (covariance[at] < 0.0f)")
+    plant(
+        folder,
+        "held = ((covariance[i] >= -1.0e9f) == true)\n               && ((covariance[i] <= 1.0e9f) == true);",
+        "held = !(covariance[i] < -1.0e9f) && !(covariance[i] > 1.0e9f);",
+    )
     found = fuzz(folder, "pendulum_ekf", calls=CALLS)
     assert "outside its range: memory field" in found.complaints[0]
 
 
 def test_an_entry_that_refuses_nothing_is_noticed(folder, needs):
     needs("gcc")
-    plant(folder, "if (!((factor >= 1.0f) && (factor <= 1000000.0f)))", "if (factor > 1.0e38f)")
+    plant(folder, "if (!(((factor >= 1.0f) == true) && ((factor <= 1000000.0f) == true)))", "if (factor > 1.0e38f)")
     found = fuzz(folder, "pendulum_ekf", calls=CALLS, flags=())
     assert found.statuses["inflate"]
     silent = FuzzResult(statuses={**found.statuses, "inflate": {"OK": 5}, "predict": {"BAD_INPUT": 7}})

@@ -271,8 +271,13 @@ def contents(folder):
 
 FILES = {
     "CMakeLists.txt",
+    "cmake/low_pass.pc.in",
+    "cmake/low_passConfig.cmake.in",
     "evidence.json",
     "examples/example_main.c",
+    "examples/low_pass/low_pass.ino",
+    "library.json",
+    "library.properties",
     "verify/fuzz_main.c",
     "manifest.json",
     "report.html",
@@ -280,6 +285,9 @@ FILES = {
     "src/low_pass.h",
     "test/test_vectors.c",
     "trace.json",
+    "zephyr/CMakeLists.txt",
+    "zephyr/Kconfig",
+    "zephyr/module.yml",
 }
 
 

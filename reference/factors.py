@@ -1,0 +1,129 @@
+"""A covariance by its factors U D U': the textbook filter seen through them.
+
+G. J. Bierman, "Factorization methods for discrete sequential estimation", 1977, ch. III. The filter itself is that of
+`kalman`: nothing of Bierman's updates is used, so that they are checked by another road.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from .kalman import Answer, Filter, KalmanOracle, Refused, Status
+from .model import Array, Model, packed, unpacked
+
+TINY = 1.0e-30
+"""Least pivot of Q that is divided by."""
+
+
+def factorised(covariance: Array) -> Array:
+    """Return the packed factors of a packed covariance: D on the diagonal, U beside it (Bierman 1977, eq. III.2).
+
+    Returns
+    -------
+    array (n (n + 1) / 2,)
+        With an element of D that is not positive where the matrix is not positive definite.
+    """
+    rest = unpacked(np.asarray(covariance, dtype=float)).copy()
+    n = len(rest)
+    table = np.zeros((n, n))
+    with np.errstate(all="ignore"):
+        for j in range(n - 1, -1, -1):
+            table[j, j] = rest[j, j]
+            table[:j, j] = rest[:j, j] / rest[j, j] if rest[j, j] != 0 else 0.0
+            rest[:j, :j] -= rest[j, j] * np.outer(table[:j, j], table[:j, j])
+    return packed(table)
+
+
+def multiplied(factors: Array) -> Array:
+    """Return the packed covariance U D U' of packed factors."""
+    table = unpacked(np.asarray(factors, dtype=float))
+    upper = np.triu(table, 1) + np.eye(len(table))
+    return packed((upper * np.diag(table)) @ upper.T)
+
+
+def _with_rounded_ends(model: Model, precision: type) -> Model:
+    """Return the model with the ends of its ranges rounded to a precision: they are compared in it."""
+
+    def ends(item: Any) -> Any:
+        low, high = (np.asarray(value).astype(precision).astype(float) for value in (item.low, item.high))
+        return replace(item, low=low, high=high)
+
+    return replace(
+        model,
+        states=tuple(map(ends, model.states)),
+        inputs=tuple(map(ends, model.inputs)),
+        params=tuple(map(ends, model.params)),
+        sensors=tuple(map(ends, model.sensors)),
+        dt=(float(precision(model.dt[0])), float(precision(model.dt[1]))) if isinstance(model.dt, tuple) else model.dt,
+        floor=model.floor.astype(precision).astype(float),
+        ceiling=model.ceiling.astype(precision).astype(float),
+    )
+
+
+class FactoredFilter(Filter):
+    """The filter of the textbook, told of noise by its factors: what makes Q indefinite is left out."""
+
+    def accepted_noise(self, Q: Array) -> Array:
+        """Return U max(D, 0) U' of Q; a negative variance is refused."""
+        if not np.all(np.diag(Q) >= 0):
+            raise Refused(Status.NOT_POSITIVE)
+        rest, total = Q.copy(), np.zeros_like(Q)
+        for j in range(len(Q) - 1, -1, -1):
+            if rest[j, j] > TINY:
+                column = rest[:, j] / rest[j, j]
+                column[j + 1 :] = 0
+                part = rest[j, j] * np.outer(column, column)
+                rest -= part
+                total += part
+        return total
+
+
+class FactoredOracle:
+    """The filter of `KalmanOracle` with the factors of its covariance as memory.
+
+    Everything is computed in double precision, in which the factors of an ill-conditioned covariance can be found again;
+    `precision` is that of inputs, parameters and the ends of ranges. An element of D below its floor is raised to it, which
+    adds to the covariance.
+
+    Parameters
+    ----------
+    model : Model
+        f and h, names, sizes and ranges.
+    """
+
+    def __init__(self, model: Model):
+        self.model = model
+        self._inside = {kind: KalmanOracle(_with_rounded_ends(model, kind)) for kind in (np.float64, np.float32)}
+        for oracle in self._inside.values():
+            oracle.filter_type = FactoredFilter
+
+    def call(
+        self,
+        entry: str,
+        memory: Mapping[str, Any],
+        inputs: Mapping[str, Any],
+        params: Mapping[str, Any],
+        precision: type = np.float64,
+    ) -> Answer:
+        """Run an entry; see `KalmanOracle.call`."""
+        given = dict(memory)
+        if entry != "init":
+            given["covariance"] = multiplied(given.pop("factors"))
+        inside = self._inside[np.float32 if precision is np.float32 else np.float64]
+        status, after, outputs = inside.call(entry, given, inputs, params)
+        if status < 0:
+            return status, after, outputs
+        factors = factorised(after.pop("covariance"))
+        n = len(self.model.floor)
+        places = np.cumsum([0, *range(n, 1, -1)])
+        if not np.all(factors[places] >= 0):
+            return int(Status.NOT_POSITIVE), {}, {}
+        raised = np.maximum(factors[places], inside.model.floor)
+        if np.any(raised != factors[places]):
+            status = max(status, int(Status.CLAMPED))
+        factors[places] = raised
+        return status, {**after, "factors": factors}, outputs

@@ -1,0 +1,204 @@
+"""Bounds against what the emulator counts and paints, against -fstack-usage, and against planted faults."""
+
+import re
+from dataclasses import replace
+
+import pytest
+from plantc.codegen.bounds import Analysis, Unknown, source_loops
+from plantc.codegen.crosscheck import make_probes, make_views
+from plantc.codegen.emit import emit
+from plantc.codegen.emulator import Call, TargetView
+from plantc.codegen.objects import read_image
+from plantc.codegen.on_target import analysis_of, within
+from plantc.codegen.targets import TARGETS, find_toolchain, linked_library
+from plantc.examples.attitude_ekf import attitude_ekf
+from plantc.examples.pendulum import pendulum_ekf
+from plantc.examples.quadrotor_ekf import quadrotor_ekf, quadrotor_kf
+
+from plantc import NativeView
+
+CROSS = ("cortex-m4", "cortex-m7", "rv32")
+
+
+def loops_of(body):
+    return source_loops(f"static void f(uint32_t n)\n{{\n{body}\n}}\n")
+
+
+def trips(body):
+    return [loop.trips for loop in loops_of(body)]
+
+
+@pytest.mark.parametrize(
+    ("head", "expected"),
+    [
+        ("for (uint32_t i = 0U; i < 12U; i++)", 12),
+        ("for (uint32_t i = 2U; i < 12U; i++)", 10),
+        ("for (uint32_t i = 0U; i <= 12U; i++)", 13),
+        ("for (uint32_t i = 0U; i < 78U; i = i + 6U)", 13),
+        ("for (uint32_t i = 0U; i < 79U; i = i + 6U)", 14),
+        ("for (uint32_t i = 0U; (i < 12U) && (status >= X_OK); i++)", 12),
+        ("for (uint32_t i = n; i < 12U; i++)", 12),
+        ("for (uint32_t i = 5U; i > 0U; i--)", 5),
+        ("for (uint32_t i = 0U; i < n; i++)", None),
+        ("for (uint32_t i = 0U; i < 12U; i = i * 2U)", None),
+        ("for (uint32_t i = 12U; i < 3U; i--)", None),
+        ("for (;;)", None),
+        ("while (n > 0U)", None),
+    ],
+)
+def test_trips_are_read_off_the_head(head, expected):
+    assert trips(f"    {head}\n    {{\n        x[i] = 0.0f;\n    }}") == [expected]
+
+
+def test_a_counter_of_the_loop_around_bounds_and_a_written_counter_does_not():
+    nest = "    for (uint32_t i = 0U; i < 7U; i++)\n    {\n        for (uint32_t j = 0U; j < i; j++)\n        {\n            y = j;\n        }\n    }"
+    assert trips(nest) == [7, 7]
+    assert trips(nest.replace("y = j", "i = 0U")) == [None, None]
+    assert trips(nest.replace("y = j", "i--")) == [None, None]
+    assert trips(nest.replace("y = j", "poke(&i)")) == [None, None]
+    outer, inner = loops_of(nest)
+    assert (outer.function, outer.first, outer.last, inner.first, inner.last) == ("f", 3, 9, 5, 8)
+
+
+def measured(block, precision, target, steps=20):
+    """A view that made the calls of a cross-check, plausible and implausible."""
+    native = NativeView(block, precision)
+    probes = make_probes(block, precision, make_views(block, precision, native), steps, 0)
+    view = TargetView(block, precision, TARGETS[target])
+    view.calls([Call(probe.entry, probe.inputs, probe.memory, probe.params) for probe in probes])
+    return view
+
+
+def analysed(block, text, target, folder):
+    program = linked_library(find_toolchain(TARGETS[target]), text, list(block.entries), folder)
+    return analysis_of(block, text, program)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("target", CROSS)
+@pytest.mark.parametrize(
+    "block", [pendulum_ekf, attitude_ekf, quadrotor_ekf, quadrotor_kf], ids=lambda block: block.name
+)
+def test_what_is_measured_is_not_above_the_bound(block, target, tmp_path, needs):
+    needs(f"{TARGETS[target].prefix}gcc", TARGETS[target].emulator)
+    view = measured(block, "float", target)
+    analysis = analysed(block, view.text, target, tmp_path)
+    for name, cost in view.most.items():
+        instructions, stack = (how(f"{block.name}_{name}") for how in (analysis.instructions, analysis.stack))
+        assert cost.instructions <= instructions, name
+        assert cost.stack <= stack <= cost.stack + 16, name
+        assert instructions < 10 * cost.instructions, f"{name}: a bound that says nothing"
+
+
+@pytest.mark.parametrize("target", CROSS)
+def test_double_has_bounds_where_the_hardware_has_double(target, tmp_path, needs):
+    needs(f"{TARGETS[target].prefix}gcc")
+    analysis = analysed(pendulum_ekf, emit(pendulum_ekf, "double"), target, tmp_path)
+    bound = analysis.instructions("pendulum_ekf_step")
+    if target == "cortex-m7":
+        assert isinstance(bound, int)
+    else:
+        assert isinstance(bound, Unknown)
+        assert re.search(r"unknown because of (a loop|an indirect jump) in __", str(bound))
+
+
+def test_a_lower_loop_bound_is_caught(tmp_path, needs):
+    needs("arm-none-eabi-gcc", "qemu-system-arm")
+    view = measured(quadrotor_kf, "float", "cortex-m4", steps=5)
+    honest = analysed(quadrotor_kf, view.text, "cortex-m4", tmp_path)
+    seen = {name: view.most[name].instructions for name in view.most}
+
+    def check(analysis):
+        rows = {name: (seen[name], analysis.instructions(f"quadrotor_kf_{name}")) for name in seen}
+        return within("instructions", view, rows)
+
+    assert check(honest).passed
+    lower = [replace(loop, trips=0) for loop in honest.loops]
+    planted = check(Analysis(honest.image, lower, honest.file, honest.largest))
+    assert not planted.passed
+    assert re.search(r"\w+: \d+ seen, the bound is \d+", planted.note)
+
+
+C = """
+#include <stdint.h>
+extern uint32_t sink[8];
+uint32_t sink[8];
+uint32_t down(uint32_t k);
+uint32_t down(uint32_t k)
+{
+    return (k > 1U) ? (k * down(k - 1U)) + sink[k & 7U] + down(k / 2U) : 1U;
+}
+void through(void (*how)(void));
+void through(void (*how)(void))
+{
+    how();
+    sink[0] = 1U;
+}
+void endless(uint32_t n);
+void endless(uint32_t n)
+{
+    for (uint32_t i = 0U; i < n; i++)
+    {
+        sink[i & 7U] = sink[(i * 3U) & 7U] + i;
+    }
+}
+void fixed(uint32_t n);
+void fixed(uint32_t n)
+{
+    for (uint32_t i = 0U; i < 100U; i++)
+    {
+        sink[(i * n) & 7U] = sink[(i * 3U) & 7U] + i;
+    }
+}
+void grows(uint32_t n);
+void grows(uint32_t n)
+{
+    volatile uint32_t room[n];
+    room[n - 1U] = 1U;
+    sink[0] = room[n - 1U];
+}
+"""
+
+
+@pytest.mark.parametrize("target", ["host", *CROSS])
+def test_what_cannot_be_bounded_says_why(target, tmp_path, needs):
+    toolchain = find_toolchain(TARGETS[target])
+    needs(toolchain.compiler.label)
+    (tmp_path / "faults.c").write_text(C)
+    flags = [item for item in toolchain.flags if item != "-ffunction-sections"]
+    toolchain.compiler.run([*flags, "-c", "faults.c", "-o", "faults.o"], tmp_path)
+    if target != "host":
+        toolchain.compiler.run([*flags, "-nostartfiles", "-Wl,-e,down", "faults.o", "-o", "faults.elf"], tmp_path)
+    name = "faults.o" if target == "host" else "faults.elf"
+    analysis = Analysis(read_image(tmp_path / name), source_loops(C), "faults.c")
+    told = {name: str(analysis.instructions(name)) for name in ("down", "through", "endless", "fixed", "absent")}
+    assert re.fullmatch(r"unknown because of recursion through down(\.\w+)?", told["down"]), told
+    assert told["through"] == "unknown because of an indirect call in through"
+    line = C.split("\n").index("    for (uint32_t i = 0U; i < n; i++)") + 1
+    assert told["endless"] == f"unknown because of the loop in line {line} of faults.c, whose trips are not fixed"
+    assert 300 < int(told["fixed"]) < 3000
+    assert told["absent"] == f"unknown because of no function 'absent' in {name}"
+    assert isinstance(analysis.stack("grows"), Unknown)
+    assert isinstance(analysis.stack("fixed"), int)
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+@pytest.mark.parametrize("target", ["host", *CROSS])
+def test_frames_are_those_that_the_compiler_states(target, precision, tmp_path, needs):
+    """-fstack-usage of gcc, function by function: the deepest of an own frame, callees left out."""
+    toolchain = find_toolchain(TARGETS[target])
+    needs(toolchain.compiler.label)
+    text = emit(attitude_ekf, precision)
+    toolchain.compile({f"{text.name}.h": text.header, f"{text.name}.c": text.source}, tmp_path)
+    flags = [*toolchain.flags, "-ffp-contract=off", "-fstack-usage", "-c", f"{text.name}.c"]
+    toolchain.compiler.run(flags, tmp_path)
+    analysis = Analysis(read_image(tmp_path / f"{text.name}.o"))
+    rows = [line.split("\t") for line in (tmp_path / f"{text.name}.su").read_text().strip().split("\n")]
+    compared = 0
+    for place, size, kind in rows:
+        name = place.split(":")[-1]
+        assert kind == "static"
+        if analysis.image.function_named(name) is not None and not name.endswith("_status_text"):
+            assert analysis.frame(name) == int(size), name
+            compared += 1
+    assert compared > 8
