@@ -21,6 +21,7 @@ from .coverage import measure_coverage
 from .crosscheck import CrossCheck, cross_check, make_probes, make_views
 from .emit import CText, emit, generator_version, templates
 from .findings import CheckResult, Findings, Mismatch
+from .fmu import build_fmu, check_fmu, check_fmu_is_possible
 from .folder import MEASURED, FolderError, check_folder_is_free, read_manifest, write_files, write_folder
 from .fuzz import fuzz_source
 from .host_gates import measure_gates
@@ -181,6 +182,7 @@ def export(
     steps: int = 100,
     progress: Callable[[str, int, int], None] | None = None,
     native: NativeView | None = None,
+    fmu: bool = False,
 ) -> Export:
     """Write a block's C library to ``out/<name>/``, after every check passed.
 
@@ -202,6 +204,8 @@ def export(
         Called with (what is being done, done, in all).
     native : NativeView, optional
         Compiled C to check instead of the emitter's: for tests that plant a fault.
+    fmu : bool
+        Whether an FMI 2.0 co-simulation unit of the same C is written too, ``<name>.fmu``.
 
     Returns
     -------
@@ -225,6 +229,8 @@ def export(
     folder = Path(out) / block.name
     check_folder_is_free(folder)
     chosen_targets(chosen)  # a missing tool is told before the work
+    if fmu:
+        check_fmu_is_possible(block)
     report("compile", 0, 1)
     compiled = native or NativeView(block, precision, contract=chosen.contract, mathematics=chosen.mathematics)
     views = make_views(block, precision, compiled)
@@ -243,11 +249,18 @@ def export(
         facts.update(found.facts)
         if not check.passed:
             raise ExportError(failure_text(block, check), check)
+    binary: dict[str, str | bytes] = {}
+    if fmu:
+        report("FMU", 0, 1)
+        binary[f"{block.name}.fmu"] = unit = build_fmu(block, chosen, compiled.text)
+        check.results.append(check_fmu(block, unit, compiled, steps=steps))
+        if not check.passed:
+            raise ExportError(failure_text(block, check), check)
     evidence = {**_evidence(block, chosen, check, compiled), **facts}
     files["evidence.json"] = json.dumps(evidence, indent=2) + "\n"
     report("report", 0, 1)
     files["report.html"] = report_html(block, json.loads(files["manifest.json"]), evidence, check.calls)
-    write_folder(folder, files)
+    write_folder(folder, {**files, **binary})
     return Export(block, chosen, folder, files, check, evidence)
 
 

@@ -236,6 +236,7 @@ def _derived_text(answer: dict[str, Any]) -> list[str]:
     "--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace."
 )
 @click.option("--redesign", is_flag=True, help="Design the numbers of design.json anew.")
+@click.option("--fmu", is_flag=True, help="Write an FMI 2.0 co-simulation unit of the same C too, BLOCK.fmu.")
 @_target
 @click.option(
     "--contract",
@@ -261,14 +262,22 @@ def _derived_text(answer: dict[str, Any]) -> list[str]:
 @click.option("--ram", callback=_size, default="", metavar="BYTES", help="RAM of the target, likewise.")
 @_common
 def export_command(
-    model: str, out: Path, precision: str, steps: int, redesign: bool, as_json: bool, debug: bool, **machine: Any
+    model: str,
+    out: Path,
+    precision: str,
+    steps: int,
+    redesign: bool,
+    fmu: bool,
+    as_json: bool,
+    debug: bool,
+    **machine: Any,
 ) -> None:
     """Write C for the blocks of MODEL into OUT/BLOCK/, compiled and cross-checked; nothing is written if a check fails."""
     session = Session(as_json, debug)
 
     def body() -> NoReturn:
         blocks, path = models.blocks_of(model)
-        exports = _export_all(session, blocks, path, out, _options(precision, **machine), steps, redesign)
+        exports = _export_all(session, blocks, path, out, _options(precision, **machine), steps, redesign, fmu)
         result = {"blocks": [_export_json(item) for item in exports]}
         folders = ", ".join(str(item.folder) for item in exports)
         session.finish(result, f"exported, all checks passed: {folders}", GOOD)
@@ -286,7 +295,14 @@ def _options(
 
 
 def _export_all(
-    session: Session, blocks: list[Block], path: Path, out: Path, options: Options, steps: int, redesign: bool
+    session: Session,
+    blocks: list[Block],
+    path: Path,
+    out: Path,
+    options: Options,
+    steps: int,
+    redesign: bool,
+    fmu: bool = False,
 ) -> list[Export]:
     exports = []
     for given in blocks:
@@ -300,7 +316,7 @@ def _export_all(
             def report(what: str, done: int, total: int, task: Any = task, name: str = block.name) -> None:
                 display.update(task, description=f"{name}: {what}", completed=done, total=total)
 
-            exports.append(export(block, out, options=options, steps=steps, progress=report))
+            exports.append(export(block, out, options=options, steps=steps, progress=report, fmu=fmu))
         for line in evidence_text(exports[-1], time.perf_counter() - started):
             session.say(line)
     return exports

@@ -148,6 +148,7 @@ class Block:
         self.derivative_checks: list[DerivativeCheck] = []
         self.design: Design | None = None
         self.float_bound = 0.05
+        self.sample_time: float | None = None
         self.source_hash = ""
         self.source = place_of_call()
         self._inputs: dict[str, Symbol] = {}

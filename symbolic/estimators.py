@@ -294,6 +294,7 @@ class _Builder:
                 )
         self.n = plant.error_size
         self.block = Block(name, doc=options.doc)
+        self.block.sample_time = plant.dt if isinstance(plant.dt, float) else None
         self.floor = self._per_error(options.floor, "variance_floor", 1e-30, 1e30)
         self.ceiling = self._per_error(options.ceiling, "variance_ceiling", 1e-30, 1e15)
         if any(low >= high for low, high in zip(self.floor, self.ceiling, strict=True)):
