@@ -60,12 +60,21 @@ def test_a_counter_of_the_loop_around_bounds_and_a_written_counter_does_not():
     assert (outer.function, outer.first, outer.last, inner.first, inner.last) == ("f", 3, 9, 5, 8)
 
 
-def measured(block, precision, target, steps=20):
-    """A view that made the calls of a cross-check, plausible and implausible."""
-    native = NativeView(block, precision)
-    probes = make_probes(block, precision, make_views(block, precision, native), steps, 0)
-    view = TargetView(block, precision, TARGETS[target])
-    view.calls([Call(probe.entry, probe.inputs, probe.memory, probe.params) for probe in probes])
+PROBED = {}
+
+
+def probes_of(block):
+    """The calls of a short cross-check, plausible and implausible, made once."""
+    if block.name not in PROBED:
+        native = NativeView(block, "float")
+        PROBED[block.name] = make_probes(block, "float", make_views(block, "float", native), 8, 0)
+    return PROBED[block.name]
+
+
+def measured(block, target):
+    """A view that made the calls of a cross-check."""
+    view = TargetView(block, "float", TARGETS[target])
+    view.calls([Call(probe.entry, probe.inputs, probe.memory, probe.params) for probe in probes_of(block)])
     return view
 
 
@@ -75,19 +84,19 @@ def analysed(block, text, target, folder):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("target", CROSS)
 @pytest.mark.parametrize(
     "block", [pendulum_ekf, attitude_ekf, quadrotor_ekf, quadrotor_kf], ids=lambda block: block.name
 )
-def test_what_is_measured_is_not_above_the_bound(block, target, tmp_path, needs):
-    needs(f"{TARGETS[target].prefix}gcc", TARGETS[target].emulator)
-    view = measured(block, "float", target)
-    analysis = analysed(block, view.text, target, tmp_path)
-    for name, cost in view.most.items():
-        instructions, stack = (how(f"{block.name}_{name}") for how in (analysis.instructions, analysis.stack))
-        assert cost.instructions <= instructions, name
-        assert cost.stack <= stack <= cost.stack + 16, name
-        assert instructions < 10 * cost.instructions, f"{name}: a bound that says nothing"
+def test_what_is_measured_is_not_above_the_bound(block, tmp_path, needs):
+    for target in CROSS:
+        needs(f"{TARGETS[target].prefix}gcc", TARGETS[target].emulator)
+        view = measured(block, target)
+        analysis = analysed(block, view.text, target, tmp_path)
+        for name, cost in view.most.items():
+            instructions, stack = (how(f"{block.name}_{name}") for how in (analysis.instructions, analysis.stack))
+            assert cost.instructions <= instructions, (target, name)
+            assert cost.stack <= stack < 2 * cost.stack, (target, name)
+            assert instructions < 10 * cost.instructions, f"{target}, {name}: a bound that says nothing"
 
 
 @pytest.mark.parametrize("target", CROSS)
@@ -104,7 +113,7 @@ def test_double_has_bounds_where_the_hardware_has_double(target, tmp_path, needs
 
 def test_a_lower_loop_bound_is_caught(tmp_path, needs):
     needs("arm-none-eabi-gcc", "qemu-system-arm")
-    view = measured(quadrotor_kf, "float", "cortex-m4", steps=5)
+    view = measured(quadrotor_kf, "cortex-m4")
     honest = analysed(quadrotor_kf, view.text, "cortex-m4", tmp_path)
     seen = {name: view.most[name].instructions for name in view.most}
 
