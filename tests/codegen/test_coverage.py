@@ -32,7 +32,9 @@ def test_the_vectors_reach_every_statement_and_the_rest_has_reasons(drafted, nee
     for item in (item for item in missed if "mathematical" not in item["reason"]):
         assert provenance.of_line(item["line"]).entry == "init"
         assert "hold_variances" in item["text"]
-    assert facts["branches"]["reached"] >= facts["branches"]["all"] - 8
+    # hold_variances has brought each variance to its floor before is_held looks at it
+    assert all("covariance[" in item["text"] and ">=" in item["text"] for item in unexplained(facts))
+    assert facts["branches"]["reached"] > 0.9 * facts["branches"]["all"]
     assert all(item["reason"] for item in facts["unreachable"])
     assert all(item["reason"] != coverage.ONLY_CORPUS for item in facts["unreachable"])
     executable = set(range(1, len(files["src/pendulum_ekf.c"].split("\n")) + 1))
@@ -78,6 +80,15 @@ def test_without_gcov_the_evidence_says_so(drafted, monkeypatch):
     assert found.facts["coverage"] == "not measured: gcc and gcov not found; install gcc, which brings gcov"
 
 
+def unexplained(facts):
+    """Branches that no call took and that are neither a defence nor a case of a mathematical function."""
+    return [
+        item
+        for item in facts["unreachable"]
+        if "branch" in item["what"] and "defence" not in item["reason"] and "mathematical" not in item["reason"]
+    ]
+
+
 def test_shapes_pass_the_gate(small_shape, needs):
     needs("gcc", "gcov")
     files, text = build_files(small_shape, "double"), emit(small_shape, "double")
@@ -86,7 +97,7 @@ def test_shapes_pass_the_gate(small_shape, needs):
     assert found.checks[0].passed, found.checks[0].note
     facts = found.facts["coverage"]
     assert all(item["reason"] != coverage.ONLY_CORPUS for item in facts["unreachable"])
-    assert facts["branches"]["reached"] >= 0.95 * facts["branches"]["all"]
+    assert len(unexplained(facts)) <= 0.05 * facts["branches"]["all"]
 
 
 @pytest.mark.slow
@@ -98,8 +109,7 @@ def test_the_large_examples_leave_nothing_to_the_corpus(shape_named, needs, name
     found = measure_coverage(block, precision, build_files(block, precision), emit(block, precision).provenance, calls)
     assert found.checks[0].passed, found.checks[0].note
     assert all(item["reason"] != coverage.ONLY_CORPUS for item in found.facts["coverage"]["unreachable"])
-    counted = found.facts["coverage"]["branches"]
-    assert counted["reached"] >= counted["all"] - 16
+    assert len(unexplained(found.facts["coverage"])) <= 16
 
 
 def filtered_encoder():
