@@ -47,14 +47,18 @@ class VectorTable:
         self.inputs: dict[str, list[str]] = {name: [] for name in block.entries}
         self.outputs: dict[str, list[str]] = {name: [] for name in block.entries}
         self.vectors: list[Vector] = []
+        self._rounded: dict[tuple[Any, bytes], Record] = {}
 
     def rounded(self, record: Record) -> Record:
         """Return a record with every real rounded to the digits that are shipped."""
-        values = {}
-        for name, value in flatten(record).items():
-            if value.dtype.kind == "f":
-                values[name] = np.array([float(f"{item:.{self.digits - 1}e}") for item in value.astype(float)])
-        return fill(record.copy(), values)
+        key = (record.dtype, record.tobytes())  # thousands of candidates share a few memories and parameters
+        if key not in self._rounded:
+            values = {}
+            for name, value in flatten(record).items():
+                if value.dtype.kind == "f":
+                    values[name] = np.array([float(f"{item:.{self.digits - 1}e}") for item in value.astype(float)])
+            self._rounded[key] = fill(record.copy(), values)
+        return self._rounded[key].copy()
 
     def _position(self, table: list[str], text: str) -> int:
         if text not in table:

@@ -3,10 +3,15 @@
 import json
 import shutil
 
+import casadi as ca
 import pytest
 from plantc.codegen import package
+from plantc.codegen.options import Options
 from plantc.codegen.package import ExportError, check_folder, export, read_manifest
+from plantc.codegen.style import Precision
 from plantc.examples.pendulum import pendulum_ekf
+
+from plantc import Block
 
 STEPS = 25
 
@@ -88,3 +93,19 @@ def test_a_failed_check_leaves_what_was_there(exported, tmp_path, monkeypatch):
         export(pendulum_ekf, tmp_path, steps=STEPS)
     assert [path.name for path in tmp_path.iterdir()] == ["pendulum_ekf"]
     assert (folder / "src/pendulum_ekf.c").read_text() == "old"
+
+
+def test_check_rebuilds_with_the_options_in_the_manifest(tmp_path):
+    turn = Block("turn")
+    angle = turn.input("angle", unit="rad", range=(-3, 3))
+    turn.entry("step", inputs=[angle], outputs={"height": ca.sin(angle * 1.1 + 0.1)})
+    options = Options(Precision("float"), contract=True, mathematics="libm")
+    folder = export(turn, tmp_path, options=options, steps=STEPS).folder
+    assert "sinf(" in (folder / "src/turn.c").read_text()
+    found = check_folder(folder, turn, steps=STEPS)
+    assert found.passed
+    manifest = read_manifest(folder)
+    for name, other in (("mathematics", "own"), ("precision", "double")):
+        (folder / "manifest.json").write_text(json.dumps({**manifest, name: other}, indent=2) + "\n")
+        found = check_folder(folder, turn, steps=STEPS)
+        assert "src/turn.c" in found.changed, name
