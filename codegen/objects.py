@@ -308,10 +308,18 @@ class Image:
         raw = next(self._decoder.disasm(self._bytes(address, 16), address, count=1), None)
         if raw is None:
             return None
+        if self.machine == "thumb" and re.fullmatch(r"it[te]{0,3}", raw.mnemonic):
+            # what follows an IT is conditional, which only shows where both are decoded together
+            block = self._decoder.disasm(self._bytes(address, 24), address, count=len(raw.mnemonic))
+            for follower in list(block)[1:]:
+                self._decoded[follower.address] = self._instruction(follower)
+        return self._instruction(raw)
+
+    def _instruction(self, raw: Any) -> Instruction:
         classify = {"x86-64": _classify_x86, "thumb": _classify_thumb, "rv32": self._classify_riscv}[self.machine]
         kind, conditional, place = classify(raw)
         target = self._relocated(raw, place) if kind in ("jump", "call") else place
-        return Instruction(address, raw.size, raw.mnemonic, raw.op_str, kind, conditional, target, raw)
+        return Instruction(raw.address, raw.size, raw.mnemonic, raw.op_str, kind, conditional, target, raw)
 
     def _relocated(self, raw: Any, target: int | None) -> int | str | None:
         places = [raw.address + k for k in range(raw.size)]
