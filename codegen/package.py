@@ -16,6 +16,7 @@ import numpy as np
 
 from ..symbolic.block import Block
 from ..symbolic.signals import Kind, Signal
+from .cache import Kept, is_cacheable, keep, kept, key_of
 from .compiler import contraction_flag, find_compiler
 from .coverage import measure_coverage
 from .crosscheck import CrossCheck, cross_check, make_probes, make_views
@@ -67,6 +68,7 @@ class Export:
     files: dict[str, str]
     check: CrossCheck
     evidence: dict[str, Any]
+    from_cache: bool = False
 
     @property
     def precision(self) -> str:
@@ -183,6 +185,7 @@ def export(
     progress: Callable[[str, int, int], None] | None = None,
     native: NativeView | None = None,
     fmu: bool = False,
+    cached: bool = False,
 ) -> Export:
     """Write a block's C library to ``out/<name>/``, after every check passed.
 
@@ -204,6 +207,8 @@ def export(
         Called with (what is being done, done, in all).
     native : NativeView, optional
         Compiled C to check instead of the emitter's: for tests that plant a fault.
+    cached : bool
+        Whether an export that was done before, with the same C, choices, tools and plantc, may answer from the cache.
     fmu : bool
         Whether an FMI 2.0 co-simulation unit of the same C is written too, ``<name>.fmu``.
 
@@ -232,6 +237,15 @@ def export(
     if fmu:
         check_fmu_is_possible(block)
     report("compile", 0, 1)
+    key = ""
+    if cached and native is None and not fmu and is_cacheable(block):
+        key = key_of(block, emit(block, precision, mathematics=chosen.mathematics), chosen, steps)
+        before = kept(key)
+        if before is not None:
+            write_folder(folder, dict(before.files))
+            return Export(
+                block, chosen, folder, before.files, CrossCheck(before.results, before.statuses), before.evidence, True
+            )
     compiled = native or NativeView(block, precision, contract=chosen.contract, mathematics=chosen.mathematics)
     views = make_views(block, precision, compiled)
     check = cross_check(
@@ -261,6 +275,8 @@ def export(
     report("report", 0, 1)
     files["report.html"] = report_html(block, json.loads(files["manifest.json"]), evidence, check.calls)
     write_folder(folder, {**files, **binary})
+    if key:
+        keep(key, Kept(files, check.results, check.statuses, evidence))
     return Export(block, chosen, folder, files, check, evidence)
 
 

@@ -16,15 +16,12 @@ import numpy as np
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-from . import models
-from .codegen.audit import AUDITS, AuditError, AuditResult, audit_folder
-from .codegen.compiler import CompilerError
+from . import models, parallel
+from .codegen.audit import AUDITS, AuditResult, audit_folder
 from .codegen.emit import generator_version
-from .codegen.findings import CheckResult
 from .codegen.mathematics import CHOICES
 from .codegen.options import Options
 from .codegen.package import (
-    DesignError,
     Export,
     ExportError,
     check_folder,
@@ -35,8 +32,9 @@ from .codegen.package import (
 )
 from .codegen.style import Precision
 from .codegen.targets import TARGETS
+from .evidence import checks_text, evidence_text, export_json, sentence
 from .models import UsageError
-from .symbolic import Block, ModelError
+from .symbolic import Block
 
 GOOD, CHECK_FAILED, USER_MUST_MEND = 0, 1, 2
 
@@ -71,7 +69,7 @@ class Session:
             if isinstance(error, ExportError):
                 checks = [result.as_dict() for result in error.check.results]
                 self.finish({"error": str(error), "checks": checks}, f"failed: {error}", CHECK_FAILED)
-            text = _sentence(error)
+            text = sentence(error)
             self.finish({"error": text}, f"error: {text}", USER_MUST_MEND)
         raise AssertionError("a command ends by finish")
 
@@ -84,15 +82,6 @@ class Session:
             TimeElapsedColumn(),
         )
         return Progress(*columns, console=self.console, transient=True, disable=not self.console.is_terminal)
-
-
-def _sentence(error: Exception) -> str:
-    """Return what the user reads of an error that stops a command."""
-    if isinstance(error, (UsageError, ModelError, DesignError, CompilerError, AuditError)):
-        return str(error)
-    if isinstance(error, OSError):
-        return f"{error.filename}: {error.strerror}" if error.filename and error.strerror else str(error)
-    return f"plantc itself failed ({type(error).__name__}: {error}); run again with --debug and report it"
 
 
 def _size(ctx: click.Context, param: click.Parameter, value: str) -> int:
@@ -236,6 +225,10 @@ def _derived_text(answer: dict[str, Any]) -> list[str]:
     "--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace."
 )
 @click.option("--redesign", is_flag=True, help="Design the numbers of design.json anew.")
+@click.option(
+    "--jobs", type=click.IntRange(1, 64), default=1, show_default=True, help="Blocks that are exported at a time."
+)
+@click.option("--no-cache", is_flag=True, help="Do all work anew, even if the same export was done before.")
 @click.option("--fmu", is_flag=True, help="Write an FMI 2.0 co-simulation unit of the same C too, BLOCK.fmu.")
 @_target
 @click.option(
@@ -267,6 +260,8 @@ def export_command(
     precision: str,
     steps: int,
     redesign: bool,
+    jobs: int,
+    no_cache: bool,
     fmu: bool,
     as_json: bool,
     debug: bool,
@@ -277,12 +272,34 @@ def export_command(
 
     def body() -> NoReturn:
         blocks, path = models.blocks_of(model)
-        exports = _export_all(session, blocks, path, out, _options(precision, **machine), steps, redesign, fmu)
-        result = {"blocks": [_export_json(item) for item in exports]}
+        options = _options(precision, **machine)
+        if jobs > 1 and len(blocks) > 1:
+            for block in blocks:  # the one file that all of them would write
+                with_design(block, path.parent / "design.json", redesign=redesign)
+            _finish_jobs(session, parallel.export_all(path, blocks, out, options, steps, fmu, not no_cache, jobs))
+        exports = _export_all(session, blocks, path, out, options, steps, redesign, fmu, not no_cache)
+        result = {"blocks": [export_json(item) for item in exports]}
         folders = ", ".join(str(item.folder) for item in exports)
         session.finish(result, f"exported, all checks passed: {folders}", GOOD)
 
     session.run(body)
+
+
+def _finish_jobs(session: Session, outcomes: list[parallel.Outcome]) -> NoReturn:
+    """Say what became of blocks that were exported side by side, in their order; the worst of it is the exit status."""
+    for outcome in outcomes:
+        for line in outcome.lines:
+            session.say(line)
+    done = {"blocks": [outcome.result for outcome in outcomes if outcome.status == GOOD]}
+    bad = [outcome for outcome in outcomes if outcome.status != GOOD]
+    if bad:
+        worst = max(outcome.status for outcome in bad)
+        word = "failed" if worst == CHECK_FAILED else "error"
+        text = "; ".join(outcome.error for outcome in bad)
+        rest = f"; {len(done['blocks'])} of {len(outcomes)} blocks were exported"
+        session.finish({"error": text, **done}, f"{word}: {text}{rest}", worst)
+    folders = ", ".join(item["folder"] for item in done["blocks"])
+    session.finish(done, f"exported, all checks passed: {folders}", GOOD)
 
 
 def _options(
@@ -303,6 +320,7 @@ def _export_all(
     steps: int,
     redesign: bool,
     fmu: bool = False,
+    cached: bool = False,
 ) -> list[Export]:
     exports = []
     for given in blocks:
@@ -316,88 +334,10 @@ def _export_all(
             def report(what: str, done: int, total: int, task: Any = task, name: str = block.name) -> None:
                 display.update(task, description=f"{name}: {what}", completed=done, total=total)
 
-            exports.append(export(block, out, options=options, steps=steps, progress=report, fmu=fmu))
+            exports.append(export(block, out, options=options, steps=steps, progress=report, fmu=fmu, cached=cached))
         for line in evidence_text(exports[-1], time.perf_counter() - started):
             session.say(line)
     return exports
-
-
-def _export_json(item: Export) -> dict[str, Any]:
-    return {"folder": str(item.folder), **item.evidence}
-
-
-def evidence_text(item: Export, seconds: float) -> list[str]:
-    """Return what an export measured, for a terminal."""
-    evidence = item.evidence
-    lines = [
-        f"{item.block.name}: model {evidence['model']}, {item.precision}, compiled by {evidence['compiler']['label']} "
-        f"({evidence['compiler']['contraction']}), {evidence['memory_bytes']} bytes of memory, {seconds:.1f} s"
-    ]
-    lines += checks_text(item.check.results)
-    reached = ", ".join(
-        f"{name} {count}" for name, count in sorted(item.check.statuses.items(), key=lambda row: -row[1])
-    )
-    lines.append(f"  statuses reached: {reached}")
-    lines += coverage_text(evidence.get("coverage", ""))
-    lines += operations_text(json.loads(item.files["manifest.json"])["entries"])
-    return [*lines, *targets_text(evidence.get("targets", {}))]
-
-
-def coverage_text(coverage: Any) -> list[str]:
-    """Return a line on what the shipped vectors reach."""
-    if not isinstance(coverage, dict):
-        return [f"  coverage: {coverage}"] if coverage else []
-    ran, taken = coverage["statements"], coverage["branches"]
-    return [
-        f"  coverage: the shipped vectors run {ran['reached']} of {ran['all']} statements; with {coverage['corpus_calls']} "
-        f"more calls {taken['reached']} of {taken['all']} branches are taken (the rest with reasons in report.html)"
-    ]
-
-
-def operations_text(entries: dict[str, Any]) -> list[str]:
-    """Return the operations by kind of each entry that has any."""
-    words = ("addition", "multiplication", "division", "negation", "selection")
-    lines = []
-    for name, entry in entries.items():
-        counted = entry["operations"]
-        parts = [f"{counted[word]} {word}{'' if counted[word] == 1 else 's'}" for word in words if counted.get(word)]
-        parts += [f"{count} {word}" for word, count in counted.items() if word not in words]
-        if parts:
-            lines.append(f"  operations of {name}: {', '.join(parts)}")
-    return lines
-
-
-def targets_text(targets: dict[str, Any]) -> list[str]:
-    """Return a table of what the code costs on each target."""
-    lines = [f"  {'target':<10} {'text':>7} {'data':>6} {'bss':>6} {'stack':>6}  instructions per call, the most seen"]
-    for name, facts in targets.items():
-        sizes, stack, counts = facts["object"], facts["stack"], facts["instructions"]
-        columns = [f"{sizes[key]:>{width}}" if isinstance(sizes, dict) else "-".rjust(width)
-                   for key, width in (("text", 7), ("data", 6), ("bss", 6))]  # fmt: skip
-        deepest = f"{max(stack.values()):>6}" if isinstance(stack, dict) else "-".rjust(6)
-        text = ", ".join(f"{key} {value}" for key, value in counts.items()) if isinstance(counts, dict) else counts
-        lines.append(f"  {name:<10} {' '.join(columns)} {deepest}  {text}")
-    return lines if targets else []
-
-
-def checks_text(results: list[CheckResult]) -> list[str]:
-    """Return one line for each check."""
-    lines = []
-    for result in results:
-        mark = "ok  " if result.passed else "FAIL"
-        text = f"  {mark} {result.name:<38} {result.calls:>5} calls"
-        if result.limit:
-            text += f"  worst {result.worst:8.1e}  limit {result.limit:.0e}"
-        if result.at_switches:
-            text += f"  ({result.at_switches} at a switch)"
-        if result.ill_conditioned:
-            text += f"  ({result.ill_conditioned} ill-conditioned)"
-        if result.note:
-            text += f"  {result.note}"
-        lines.append(text)
-        if result.mismatch is not None:
-            lines.append(f"       {result.mismatch}")
-    return lines
 
 
 @main.command(name="check")
@@ -533,7 +473,7 @@ def demo_command(out: Path, as_json: bool, debug: bool) -> None:
         exports = _export_all(session, [quadrotor_ekf], path / "demo.py", out, Options(), 100, False)
         image = picture(quadrotor_ekf, out / "quadrotor_ekf.svg")
         session.say(f"  the compiled C at work: {image}")
-        result = {"blocks": [_export_json(item) for item in exports], "picture": str(image)}
+        result = {"blocks": [export_json(item) for item in exports], "picture": str(image)}
         session.finish(result, f"done: the C lies in {exports[0].folder}", GOOD)
 
     session.run(body)

@@ -1,0 +1,111 @@
+"""What an export measured, and what went wrong, as lines for a terminal."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from .codegen.audit import AuditError
+from .codegen.compiler import CompilerError
+from .codegen.findings import CheckResult
+from .codegen.package import DesignError, Export
+from .models import UsageError
+from .symbolic import ModelError
+
+
+def sentence(error: Exception) -> str:
+    """Return what the user reads of an error that stops a command."""
+    if isinstance(error, (UsageError, ModelError, DesignError, CompilerError, AuditError)):
+        return str(error)
+    if isinstance(error, OSError):
+        return f"{error.filename}: {error.strerror}" if error.filename and error.strerror else str(error)
+    return f"plantc itself failed ({type(error).__name__}: {error}); run again with --debug and report it"
+
+
+def export_json(item: Export) -> dict[str, Any]:
+    """Return what an export measured, for JSON."""
+    return {"folder": str(item.folder), "from_cache": item.from_cache, **item.evidence}
+
+
+def evidence_text(item: Export, seconds: float) -> list[str]:
+    """Return what an export measured, for a terminal."""
+    evidence = item.evidence
+    lines = [
+        f"{item.block.name}: model {evidence['model']}, {item.precision}, compiled by {evidence['compiler']['label']} "
+        f"({evidence['compiler']['contraction']}), {evidence['memory_bytes']} bytes of memory, {seconds:.1f} s"
+    ]
+    if item.from_cache:
+        lines.append("  from the cache: the same export was done before on this machine (--no-cache does it again)")
+    lines += checks_text(item.check.results)
+    reached = ", ".join(
+        f"{name} {count}" for name, count in sorted(item.check.statuses.items(), key=lambda row: -row[1])
+    )
+    lines.append(f"  statuses reached: {reached}")
+    lines += coverage_text(evidence.get("coverage", ""))
+    lines += operations_text(json.loads(item.files["manifest.json"])["entries"])
+    return [*lines, *targets_text(evidence.get("targets", {}))]
+
+
+def coverage_text(coverage: Any) -> list[str]:
+    """Return a line on what the shipped vectors reach."""
+    if not isinstance(coverage, dict):
+        return [f"  coverage: {coverage}"] if coverage else []
+    ran, taken = coverage["statements"], coverage["branches"]
+    return [
+        f"  coverage: the shipped vectors run {ran['reached']} of {ran['all']} statements; with {coverage['corpus_calls']} "
+        f"more calls {taken['reached']} of {taken['all']} branches are taken (the rest with reasons in report.html)"
+    ]
+
+
+def operations_text(entries: dict[str, Any]) -> list[str]:
+    """Return the operations by kind of each entry that has any."""
+    words = ("addition", "multiplication", "division", "negation", "selection")
+    lines = []
+    for name, entry in entries.items():
+        counted = entry["operations"]
+        parts = [f"{counted[word]} {word}{'' if counted[word] == 1 else 's'}" for word in words if counted.get(word)]
+        parts += [f"{count} {word}" for word, count in counted.items() if word not in words]
+        if parts:
+            lines.append(f"  operations of {name}: {', '.join(parts)}")
+    return lines
+
+
+def targets_text(targets: dict[str, Any]) -> list[str]:
+    """Return a table of what the code costs on each target."""
+    lines = [
+        f"  {'target':<10} {'text':>7} {'data':>6} {'bss':>6} {'stack':>6}  instructions per call, the most seen (and a bound)"
+    ]
+    for name, facts in targets.items():
+        sizes, stack, counts = facts["object"], facts["stack"], facts["instructions"]
+        columns = [f"{sizes[key]:>{width}}" if isinstance(sizes, dict) else "-".rjust(width)
+                   for key, width in (("text", 7), ("data", 6), ("bss", 6))]  # fmt: skip
+        deepest = f"{max(stack.values()):>6}" if isinstance(stack, dict) else "-".rjust(6)
+        most = facts.get("instruction_bound", {})
+        bounds = (
+            {key: f" (<= {most[key]})" for key in most if isinstance(most[key], int)} if isinstance(most, dict) else {}
+        )
+        text = counts
+        if isinstance(counts, dict):
+            text = ", ".join(f"{key} {value}{bounds.get(key, '')}" for key, value in counts.items())
+        lines.append(f"  {name:<10} {' '.join(columns)} {deepest}  {text}")
+    return lines if targets else []
+
+
+def checks_text(results: list[CheckResult]) -> list[str]:
+    """Return one line for each check."""
+    lines = []
+    for result in results:
+        mark = "ok  " if result.passed else "FAIL"
+        text = f"  {mark} {result.name:<38} {result.calls:>5} calls"
+        if result.limit:
+            text += f"  worst {result.worst:8.1e}  limit {result.limit:.0e}"
+        if result.at_switches:
+            text += f"  ({result.at_switches} at a switch)"
+        if result.ill_conditioned:
+            text += f"  ({result.ill_conditioned} ill-conditioned)"
+        if result.note:
+            text += f"  {result.note}"
+        lines.append(text)
+        if result.mismatch is not None:
+            lines.append(f"       {result.mismatch}")
+    return lines
