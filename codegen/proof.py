@@ -64,11 +64,16 @@ def _fill(target: str, signals: Sequence[Signal], precision: Precision, *, anyth
     return lines
 
 
+def _exact(value: float, precision: Precision) -> str:
+    """Return the number that the C compares with, exactly: in an annotation a decimal is a real number."""
+    return float(precision.dtype(value)).hex()
+
+
 def _holds(target: str, signals: Sequence[Signal], precision: Precision) -> list[str]:
     lines = []
     for signal, k, name in _fields(signals):
         if signal.kind is Kind.REAL:
-            item, low, high = f"{target}.{name}", precision.literal(signal.low[k]), precision.literal(signal.high[k])
+            item, low, high = f"{target}.{name}", _exact(signal.low[k], precision), _exact(signal.high[k], precision)
             lines.append(f"    //@ assert \\is_finite({item}) && {low} <= {item} <= {high};")
     return lines
 

@@ -673,6 +673,10 @@ class _Builder:
         for sensor in plant.sensors:
             body.append(Assign(Place("next", f"rejected_{sensor.signal.name}"), 0.0, 1))
         body += self.form.hold()
+        if plant.has_attitude:
+            body.append(
+                self._judge()
+            )  # scaling to unit length keeps an attitude in range; what is stored is judged all the same
         doc = "Start (or start again) from the initial estimate in the parameters; every parameter is checked here."
         return Entry("init", (), (), tuple(body), doc, checks_params=True)
 
