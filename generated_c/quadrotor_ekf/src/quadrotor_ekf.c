@@ -121,7 +121,7 @@ static double quadrotor_ekf_math_sin(double x)
 
             value = magnitude + ((magnitude * z) * quadrotor_ekf_math_sin_series(z));
         }
-        else if (magnitude <= 1.6777216e7)
+        else if ((magnitude <= 1.6777216e7) == true)
         {
             double remainder[2];
             const uint32_t quadrant = quadrotor_ekf_math_reduce(magnitude, remainder);
@@ -153,7 +153,7 @@ static double quadrotor_ekf_math_cos(double x)
 
         value = 1.0 - (z * (0.5 - (z * quadrotor_ekf_math_cos_series(z))));
     }
-    else if (magnitude <= 1.6777216e7)
+    else if ((magnitude <= 1.6777216e7) == true)
     {
         double remainder[2];
         const uint32_t quadrant = quadrotor_ekf_math_reduce(magnitude, remainder);
