@@ -1,4 +1,4 @@
-/* attitude_ekf: see attitude_ekf.h. Written by plantc 0.1.0 from model 86250377. */
+/* attitude_ekf: see attitude_ekf.h. Written by plantc 0.1.0 from model dc394edc. */
 #include "attitude_ekf.h"
 
 #include <math.h>
@@ -143,7 +143,7 @@ static float attitude_ekf_math_sin(float x)
 
             value = magnitude + ((magnitude * z) * attitude_ekf_math_sin_series(z));
         }
-        else if (magnitude <= 1.0737418e9f)
+        else if ((magnitude <= 1.0737418e9f) == true)
         {
             float remainder[2];
             const uint32_t quadrant = attitude_ekf_math_reduce(magnitude, remainder);
@@ -175,7 +175,7 @@ static float attitude_ekf_math_cos(float x)
 
         value = 1.0f - (z * (0.5f - (z * attitude_ekf_math_cos_series(z))));
     }
-    else if (magnitude <= 1.0737418e9f)
+    else if ((magnitude <= 1.0737418e9f) == true)
     {
         float remainder[2];
         const uint32_t quadrant = attitude_ekf_math_reduce(magnitude, remainder);
@@ -388,6 +388,19 @@ static attitude_ekf_status_t attitude_ekf_init_core(attitude_ekf_state_t *after,
             if (!attitude_ekf_is_bounded(after->covariance))
             {
                 status = attitude_ekf_hold_variances(after->covariance);
+            }
+            if (status >= ATTITUDE_EKF_OK)
+            {
+                if (!(((after->q[0] >= -1.01f) == true) && ((after->q[0] <= 1.01f) == true)
+                      && ((after->q[1] >= -1.01f) == true) && ((after->q[1] <= 1.01f) == true)
+                      && ((after->q[2] >= -1.01f) == true) && ((after->q[2] <= 1.01f) == true)
+                      && ((after->q[3] >= -1.01f) == true) && ((after->q[3] <= 1.01f) == true)
+                      && ((after->bias[0] >= -1.0f) == true) && ((after->bias[0] <= 1.0f) == true)
+                      && ((after->bias[1] >= -1.0f) == true) && ((after->bias[1] <= 1.0f) == true)
+                      && ((after->bias[2] >= -1.0f) == true) && ((after->bias[2] <= 1.0f) == true)))
+                {
+                    status = ATTITUDE_EKF_OVERFLOW;
+                }
             }
         }
     }
@@ -1680,7 +1693,7 @@ attitude_ekf_status_t attitude_ekf_inflate(attitude_ekf_state_t *state, const at
 /* The hash of the model, as in the header. */
 const char *attitude_ekf_model(void)
 {
-    return "86250377";
+    return "dc394edc";
 }
 
 /* A sentence for a status. */

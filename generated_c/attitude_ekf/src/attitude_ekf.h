@@ -1,6 +1,6 @@
 /* attitude_ekf: Extended Kalman filter of the plant "attitude", in single precision.
  *
- * Written by plantc 0.1.0 from model 86250377. Do not edit: change the model, export again.
+ * Written by plantc 0.1.0 from model dc394edc. Do not edit: change the model, export again.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  *
  *    rate of q[0] = gyro[0] - bias[0] + gyro_noise[0]

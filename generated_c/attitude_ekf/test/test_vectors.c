@@ -1,4 +1,4 @@
-/* Test vectors of attitude_ekf with their runner. Written by plantc 0.1.0 from model 86250377.
+/* Test vectors of attitude_ekf with their runner. Written by plantc 0.1.0 from model dc394edc.
  *
  * Each call starts from a stated memory; what it gives is compared with what the Python model gave, in units of the
  * natural size of each field. Build with attitude_ekf.c; returns 0 if all agree. For hosts: it prints.
@@ -556,7 +556,7 @@ static int texts_are_wrong(void)
         ATTITUDE_EKF_OVERFLOW
     };
     const char *const unknown = attitude_ekf_status_text((attitude_ekf_status_t)127);
-    int wrong = (strcmp(attitude_ekf_model(), "86250377") != 0);
+    int wrong = (strcmp(attitude_ekf_model(), "dc394edc") != 0);
 
     for (size_t i = 0; i < (sizeof(known) / sizeof(known[0])); i++)
     {

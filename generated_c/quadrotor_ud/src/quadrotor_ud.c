@@ -143,7 +143,7 @@ static float quadrotor_ud_math_sin(float x)
 
             value = magnitude + ((magnitude * z) * quadrotor_ud_math_sin_series(z));
         }
-        else if (magnitude <= 1.0737418e9f)
+        else if ((magnitude <= 1.0737418e9f) == true)
         {
             float remainder[2];
             const uint32_t quadrant = quadrotor_ud_math_reduce(magnitude, remainder);
@@ -175,7 +175,7 @@ static float quadrotor_ud_math_cos(float x)
 
         value = 1.0f - (z * (0.5f - (z * quadrotor_ud_math_cos_series(z))));
     }
-    else if (magnitude <= 1.0737418e9f)
+    else if ((magnitude <= 1.0737418e9f) == true)
     {
         float remainder[2];
         const uint32_t quadrant = quadrotor_ud_math_reduce(magnitude, remainder);

@@ -1,4 +1,4 @@
-/* How to call attitude_ekf from a sketch. Written by plantc 0.1.0 from model 86250377.
+/* How to call attitude_ekf from a sketch. Written by plantc 0.1.0 from model dc394edc.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  */
 #include <attitude_ekf.h>
