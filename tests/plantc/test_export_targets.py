@@ -113,7 +113,7 @@ def test_code_that_does_not_fit_leaves_nothing(export, needs, tmp_path, option, 
     needs("arm-none-eabi-gcc", "qemu-system-arm")
     refused(export("--target", "cortex-m4", option, 64), "low_pass does not fit cortex-m4", f"bytes of {what}", option)
     assert not (tmp_path / "generated_c/low_pass").exists()
-    assert export("--target", "cortex-m4", option, "2K").status == 0
+    assert export("--target", "cortex-m4", option, "4K").status == 0
 
 
 @pytest.mark.parametrize(
@@ -141,7 +141,7 @@ def test_check_runs_what_lies_there_on_a_target(export, needs, tmp_path, plantc)
     good = plantc(*arguments, "--json")
     assert good.status == 0, good.err
     names = [item["name"] for item in json.loads(good.out)["checks"]]
-    assert names[-2:] == ["cortex-m4 = native", "cortex-m4 = native, free run"]
+    assert {"cortex-m4 = native", "cortex-m4 = native, free run"} <= set(names)
     source = folder / "src/low_pass.c"
     whole = source.read_text()
     spoilt = whole.replace(" smooth_0;\n", " smooth_0\n#ifdef __arm__\n + 0.5f\n#endif\n;\n", 1)
