@@ -1,20 +1,26 @@
-"""Frama-C's EVA on the C of a block: one step of an induction over arbitrary calls, an entry at a time.
+"""Frama-C's EVA on the C of a block, function by function: an induction over arbitrary calls.
 
 The memory is anything within its ranges, the parameters anything within theirs, the inputs any bit pattern. After the
 call the memory must be finite and within its ranges again, so that what held before one call holds before the next.
+
+Each function is analysed as it ships against what it promises, with what it calls replaced by stubs that do all that their
+own promises allow, and assert what those require. Every promise that a stub stands for is proved in the same run.
 """
 
 from __future__ import annotations
 
 import csv
+import os
+import re
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
 from ..symbolic.block import Block
-from ..symbolic.program import Entry
+from ..symbolic.program import Call, Entry, HoldFactors, HoldVariances, walk
 from ..symbolic.signals import Kind, Signal, Status
 from .emit import CText
 from .exported import run_tool, tool
@@ -22,10 +28,13 @@ from .findings import CheckResult, Findings
 from .style import Precision
 
 OPTIONS = [
-    "-eva", "-eva-precision", "4", "-warn-special-float", "none", "-eva-split-return", "full", "-eva-slevel", "1000",
+    "-eva", "-eva-precision", "4", "-warn-special-float", "none", "-eva-split-return", "full",
     "-machdep", "gcc_x86_64",
 ]  # fmt: skip
 """NaN and infinity may arise on the way: they are judged, and must not be stored."""
+
+EFFORTS = {"judgement": (2000,), "straight": (100, 1000), "sequence": (3000,)}
+"""States that the analyser keeps apart, tried in this order, by what kind of function it is."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +50,35 @@ class Property:
     def is_proved(self) -> bool:
         """Whether it is proved, and was reached."""
         return self.status == "Valid"
+
+
+class ProofError(ValueError):
+    """C that cannot be proved this way. The message says what was found."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """One function to be proved.
+
+    Attributes
+    ----------
+    name : str
+        The entry, or the helper without its prefix.
+    source : str
+        The C, with callees replaced by stubs.
+    harness : str
+        The C of the function ``prove``.
+    effort : str
+        Key of `EFFORTS`.
+    assertions : int
+        How many assertions of the harness must be reached and valid.
+    """
+
+    name: str
+    source: str
+    harness: str
+    effort: str
+    assertions: int
 
 
 def _fields(signals: Sequence[Signal], path: str = "") -> Iterator[tuple[Signal, int, str]]:
@@ -78,27 +116,8 @@ def _holds(target: str, signals: Sequence[Signal], precision: Precision) -> list
     return lines
 
 
-def proof_source(block: Block, precision: Precision) -> str:
-    """Return the C text of the harness: a function ``prove_<entry>`` for each entry.
-
-    Parameters
-    ----------
-    block : Block
-        Whose entries are called.
-    precision : Precision
-        Of the C.
-    """
-    real = precision.name
-    lines = [
-        f'#include "{block.name}.h"', '#include "__fc_builtin.h"', "",
-        f"static volatile {real} any_real;", "static volatile uint32_t any_count;",
-    ]  # fmt: skip
-    for entry in block.entries.values():
-        lines += ["", f"void prove_{entry.name}(void)", "{", *_proof_of(block, entry, precision), "}"]
-    return "\n".join(lines) + "\n"
-
-
 def _proof_of(block: Block, entry: Entry, precision: Precision) -> list[str]:
+    """Return the body of a harness that calls an entry once."""
     name = block.name
     memory, params = block.memory_group().members, block.param_group().members
     lines, arguments = [f"    {name}_state_t state;"], ["&state"]
@@ -127,17 +146,177 @@ def _proof_of(block: Block, entry: Entry, precision: Precision) -> list[str]:
     return lines + (["    if (status >= 0)", "    {", *finite, "    }"] if finite else [])
 
 
-def analyse(block: Block, text: CText, entry: str, *, seconds: float = 300.0) -> list[Property]:
-    """Return every property of one entry that Frama-C looked at.
+_TOLD = ["    if (status >= 0) { Frama_C_show_each_accepted(1); } else { Frama_C_show_each_refused(1); }"]
+"""Both ways must be reached: a harness whose calls never return would prove anything."""
+
+
+class _Prover:
+    """Makes the tasks of one block."""
+
+    def __init__(self, block: Block, text: CText):
+        if block.parts:
+            raise ProofError(f"{block.name}: a composition is not proved as a whole; prove its parts")
+        self.block, self.text, self.name, self.precision = block, text, block.name, text.precision
+        self.memory = block.memory_group().members
+        self.hold = next(
+            (item for entry in block.entries.values() for item in walk(entry.body) if isinstance(item, HoldVariances)),
+            None,
+        )
+
+    def tasks(self) -> list[Task]:
+        """Return every function that must be proved: what judges, then the entries."""
+        found = self._judgements() if self.hold is not None else []
+        return found + [self._entry(entry) for entry in self.block.entries.values()]
+
+    # -- what judges --------------------------------------------------------------------------------------------------
+
+    def _matrix(self) -> tuple[Signal, str, str]:
+        """Return the field that is held, the parameter of the functions that judge it, and the name of the main one."""
+        assert self.hold is not None
+        field = next(signal for signal in self.memory if signal.name == self.hold.target.name)
+        factored = isinstance(self.hold, HoldFactors)
+        return (
+            field,
+            "factors" if factored else "covariance",
+            f"{self.name}_hold_{'factors' if factored else 'variances'}",
+        )
+
+    def _judgements(self) -> list[Task]:
+        field, _, holder = self._matrix()
+        size, real = field.size, self.precision.name
+        anything = [f"    {real} c[{size}];", *[f"    c[{k}] = any_real;" for k in range(size)]]
+        within = [f"        //@ assert {self._within(f'c[{k}]', field, k)};" for k in range(size)]
+        tasks = []
+        for helper in ("is_held", "is_bounded"):
+            if self._has(helper):
+                body = [*anything, f"    if ({self.name}_{helper}(c))", "    {", *within, "    }"]
+                tasks.append(Task(helper, self.text.source, _function(body), "judgement", size))
+        stubs = {f"{self.name}_is_held": self._passing_stub()} if self._has("is_held") else {}
+        body = [*anything, f"    const {self.name}_status_t status = {holder}({'c' if size > 1 else '&c[0]'});"]
+        body += [f"    //@ assert {int(min(Status))} <= status <= {int(max(Status))};", "    if (status >= 0)", "    {"]
+        body += [*within, "    }", *_TOLD]
+        name = holder.removeprefix(f"{self.name}_")
+        return [*tasks, Task(name, replaced(self.text.source, stubs), _function(body), "judgement", size + 1)]
+
+    def _has(self, helper: str) -> bool:
+        return re.search(rf"^static bool {self.name}_{helper}\(", self.text.source, re.MULTILINE) is not None
+
+    def _within(self, item: str, field: Signal, k: int) -> str:
+        low, high = _exact(field.low[k], self.precision), _exact(field.high[k], self.precision)
+        return f"\\is_finite({item}) && {low} <= {item} <= {high}"
+
+    def _passing_stub(self) -> list[str]:
+        """A test that may fail for any reason; if it passes, every element is within its range."""
+        field, array, _ = self._matrix()
+        admitted = [f"    //@ admit {self._within(f'{array}[{k}]', field, k)};" for k in range(field.size)]
+        return ["    if (any_count != 0U)", "    {", "        return false;", "    }", *admitted, "    return true;"]
+
+    def _holding_stub(self) -> list[str]:
+        """It refuses and leaves anything, or leaves every element within its range."""
+        field, array, _ = self._matrix()
+        real, upper, lines = self.precision.name, self.name.upper(), ["    if (any_count != 0U)", "    {"]
+        lines += [f"        {array}[{k}] = any_real;" for k in range(field.size)]
+        lines += [f"        return (any_count != 0U) ? {upper}_NOT_POSITIVE : {upper}_OVERFLOW;", "    }"]
+        for k in range(field.size):
+            low, high = self.precision.literal(field.low[k]), self.precision.literal(field.high[k])
+            lines.append(f"    {array}[{k}] = Frama_C_{real}_interval({low}, {high});")
+        return [*lines, f"    return (any_count != 0U) ? {upper}_OK : {upper}_CLAMPED;"]
+
+    # -- entries ------------------------------------------------------------------------------------------------------
+
+    def _entry(self, entry: Entry) -> Task:
+        called = list(dict.fromkeys(item.entry for item in walk(entry.body) if isinstance(item, Call)))
+        stubs = {f"{self.name}_{name}_core": self._core_stub(self.block.entries[name]) for name in called}
+        if self.hold is not None:
+            _, _, holder = self._matrix()
+            stubs[holder] = self._holding_stub()
+            if self._has("is_bounded"):
+                stubs[f"{self.name}_is_bounded"] = self._passing_stub()
+        body = [*_proof_of(self.block, entry, self.precision), *(_TOLD if self._may_be_refused(entry) else [])]
+        least = sum(signal.kind is Kind.REAL for signal, _, _ in _fields(self.memory))
+        effort = "sequence" if called else "straight"
+        return Task(entry.name, replaced(self.text.source, stubs), _function(body), effort, least + 1)
+
+    def _may_be_refused(self, entry: Entry) -> bool:
+        return bool(entry.inputs) or entry.checks_params
+
+    def _core_stub(self, entry: Entry) -> list[str]:
+        """What an entry's core promises: refused and anything, or memory within its ranges and finite outputs."""
+        head = _definition(self.text.source, f"{self.name}_{entry.name}_core")[2]
+        lines = ["    //@ assert before != after;", *_holds("(*before)", self.memory, self.precision)]
+        lines += ["    if (any_count != 0U)", "    {"]
+        lines += [f"    {line}" for line in _fill("(*after)", self.memory, self.precision, anything=True)]
+        lines += [f"        return ({self.name}_status_t)Frama_C_interval({int(min(Status))}, -1);", "    }"]
+        lines += _fill("(*after)", self.memory, self.precision, anything=False)
+        most = "3.4e38f" if self.precision.is_float else "1.7e308"
+        if "*out" in head:
+            lines += [
+                f"    out->{name} = Frama_C_{self.precision.name}_interval(-{most}, {most});"
+                for signal, _, name in _fields(entry.outputs)
+                if signal.kind is Kind.REAL
+            ]
+        return [*lines, f"    return ({self.name}_status_t)Frama_C_interval(0, {int(max(Status))});"]
+
+
+def _function(body: Sequence[str]) -> str:
+    return "\n".join(["void prove(void)", "{", *body, "}"])
+
+
+def _definition(source: str, name: str) -> tuple[int, int, str]:
+    """Return where the definition of a static function begins and ends, and its head."""
+    found = re.search(rf"^static [^\n;=]*\b{re.escape(name)}\(", source, re.MULTILINE)
+    if found is None:
+        raise ProofError(f"the C has no static function {name}, whose promise was to be used; export again")
+    opened = source.index("\n{\n", found.start())
+    head = source[found.start() : opened]
+    if ";" in head or "}" in head:
+        raise ProofError(f"the definition of {name} is not where it was expected; export again")
+    return found.start(), source.index("\n}\n", opened) + 3, head
+
+
+def replaced(source: str, stubs: Mapping[str, Sequence[str]]) -> str:
+    """Return C with the bodies of some static functions replaced; everything else stays as it is."""
+    for name, body in stubs.items():
+        start, end, head = _definition(source, name)
+        source = "\n".join([source[:start] + head, "{", *body, "}", ""]) + source[end:]
+    return source
+
+
+def proof_tasks(block: Block, text: CText) -> list[Task]:
+    """Return all that must be proved of a block.
+
+    Raises
+    ------
+    ProofError
+        If the block is a composition, or the C is not of the expected form.
+    """
+    return _Prover(block, text).tasks()
+
+
+def proof_source(block: Block, text: CText, task: Task) -> str:
+    """Return the C that the analyser reads: the library with stubs, and the harness behind it."""
+    include = f'#include "{block.name}.h"\n'
+    at = task.source.index(include) + len(include)
+    real = text.precision.name
+    own = f'#include "__fc_builtin.h"\nstatic volatile {real} any_real;\nstatic volatile uint32_t any_count;\n'
+    return task.source[:at] + own + task.source[at:] + "\n" + task.harness + "\n"
+
+
+def analyse(
+    block: Block, text: CText, task: Task, effort: int, *, seconds: float = 300.0
+) -> tuple[list[Property], frozenset[str]]:
+    """Return every property of one task that Frama-C looked at, and which ways of returning it reached.
 
     Parameters
     ----------
     block : Block
-        Whose entry it is.
+        Whose function it is.
     text : CText
         Its C.
-    entry : str
-        Name of the entry.
+    task : Task
+        What is proved.
+    effort : int
+        States that are kept apart.
     seconds : float
         How long the analysis may take; beyond it subprocess.TimeoutExpired is raised.
 
@@ -152,16 +331,16 @@ def analyse(block: Block, text: CText, entry: str, *, seconds: float = 300.0) ->
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
         (folder / f"{block.name}.h").write_text(text.header)
-        (folder / f"{block.name}.c").write_text(text.source)
-        (folder / "proof_main.c").write_text(proof_source(block, text.precision))
+        (folder / "proof_main.c").write_text(proof_source(block, text, task))
         helpers = sorted({word.split("(")[0] for word in text.source.split() if word.startswith(f"{block.name}_math_")})
         # what computes and stores nothing needs no case distinction
         bounded = ",".join(f"{helper}:0" for helper in helpers)
-        command = [program, *OPTIONS, *(["-eva-slevel-function", bounded] if bounded else [])]
+        command = [program, *OPTIONS, "-eva-slevel", str(effort)]
+        command += ["-eva-slevel-function", bounded] if bounded else []
         report = folder / "report.csv"
         # whole paths: frama-c resolves others by the variable PWD, not by where it runs
-        command += [f"-main=prove_{entry}", str(folder / "proof_main.c"), str(folder / f"{block.name}.c")]
-        done = run_tool([*command, "-then", "-report-csv", str(report)], folder, seconds=seconds)
+        command += ["-main=prove", str(folder / "proof_main.c"), "-then", "-report-csv", str(report)]
+        done = run_tool(command, folder, seconds=seconds)
         if done.returncode != 0 or not report.is_file():
             raise RuntimeError(f"frama-c ended with {done.returncode}: {(done.stdout + done.stderr)[-1000:]}")
         with report.open() as rows:
@@ -169,47 +348,65 @@ def analyse(block: Block, text: CText, entry: str, *, seconds: float = 300.0) ->
                 Property(row["function"], row["property kind"], row["status"], row["property"])
                 for row in csv.DictReader(rows, delimiter="\t")
             ]
-    # other entries' harnesses are not run; what Frama-C's own library promises of itself is taken on trust
-    return [
+    ways = frozenset(way for way in ("accepted", "refused") if f"Frama_C_show_each_{way}" in done.stdout)
+    # what Frama-C's own library promises of itself is taken on trust; a stub or helper that is not called here is dead
+    kept = [
         item
         for item in found
         if item.status != "Considered valid"
-        and (not item.function.startswith("prove_") or item.function == f"prove_{entry}")
-        and not (item.status == "Dead" and item.function != f"prove_{entry}")
+        and not (item.status == "Dead" and item.function != "prove")
+        and not item.function.startswith("Frama_C_show_each_")
     ]
+    return kept, ways
 
 
-def prove(block: Block, text: CText, entries: Sequence[str], *, seconds: float = 300.0) -> Findings:
-    """Prove that no call of these entries takes the memory out of its ranges, whatever the inputs.
+def prove_task(block: Block, text: CText, task: Task, *, seconds: float = 300.0) -> CheckResult:
+    """Prove one function, with more effort where less does not do."""
+    needed = {"accepted", "refused"} if "show_each" in task.harness else set()
+    started, note, count = time.perf_counter(), "", 0
+    for effort in EFFORTS[task.effort]:
+        properties, ways = analyse(block, text, task, effort, seconds=seconds)
+        own = [item for item in properties if item.function == "prove" and item.kind == "user assertion"]
+        open_ones = [item for item in properties if not item.is_proved]
+        count = len(properties)
+        note = "; ".join(f"{item.function}: {item.text} ({item.status})" for item in open_ones[:3])
+        if not open_ones:
+            if len(own) >= task.assertions and needed <= ways:
+                took = time.perf_counter() - started
+                return CheckResult(f"proof of {task.name}", True, calls=count, note=f"{took:.1f} s")
+            note = f"{len(own)} of {task.assertions} assertions were reached; of the ways to return only {sorted(ways)}"
+    return CheckResult(f"proof of {task.name}", False, calls=count, note=note)
+
+
+def prove(block: Block, text: CText, names: Sequence[str] = (), *, seconds: float = 300.0) -> Findings:
+    """Prove that no sequence of calls takes the memory out of its ranges, whatever the inputs.
 
     Parameters
     ----------
     block : Block
-        Whose entries they are.
+        Whose C it is.
     text : CText
-        Its C.
-    entries : sequence of str
-        Names of entries.
+        The C.
+    names : sequence of str, optional
+        Entries and helpers to be proved; default all. The claim holds for all of them together.
     seconds : float
         How long each analysis may take.
+
+    Returns
+    -------
+    Findings
+        A check for each function; its calls are the properties that were looked at.
+
+    Raises
+    ------
+    MissingTool
+        If frama-c is not installed.
+    ProofError
+        If the block is a composition, or the C is not of the expected form.
     """
-    found = Findings()
-    facts = {}
-    for name in entries:
-        started = time.perf_counter()
-        properties = analyse(block, text, name, seconds=seconds)
-        own = [item for item in properties if item.function == f"prove_{name}" and item.kind == "user assertion"]
-        open_ones = [item for item in properties if not item.is_proved]
-        least = sum(signal.kind is Kind.REAL for signal, _, _ in _fields(block.memory_group().members))
-        # a harness whose calls never return would leave its assertions unreached
-        passed = not open_ones and len(own) > least
-        note = "; ".join(f"{item.function}: {item.text} ({item.status})" for item in open_ones[:3])
-        found.checks.append(CheckResult(f"proof of {name}", passed, calls=len(properties), note=note))
-        facts[name] = {
-            "properties": len(properties),
-            "assertions": len(own),
-            "open": len(open_ones),
-            "seconds": round(time.perf_counter() - started, 1),
-        }
-    found.facts["proof"] = facts
-    return found
+    tasks = [task for task in proof_tasks(block, text) if not names or task.name in names]
+    with ThreadPoolExecutor(max(1, os.cpu_count() or 1)) as pool:
+        checks = list(pool.map(lambda task: prove_task(block, text, task, seconds=seconds), tasks))
+    return Findings(
+        checks, {"proof": {task.name: check.calls for task, check in zip(tasks, checks, strict=True) if check.passed}}
+    )

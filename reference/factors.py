@@ -67,6 +67,11 @@ def _with_rounded_ends(model: Model, precision: type) -> Model:
 class FactoredFilter(Filter):
     """The filter of the textbook, told of noise by its factors: what makes Q indefinite is left out."""
 
+    def judge_variance(self, variance: Array) -> None:
+        """Refuse a variance beyond 1e30, which factors within their ranges may make."""
+        if not np.all((variance >= 0) & (variance <= 1e30)):
+            raise Refused(Status.OVERFLOW)
+
     def accepted_noise(self, Q: Array) -> Array:
         """Return U max(D, 0) U' of Q; a negative variance is refused."""
         if not np.all(np.diag(Q) >= 0):

@@ -203,6 +203,7 @@ class Filter:
         root = self.require_definite(S, Status.NOT_POSITIVE)  # S = root root'
         whitened = solve_triangular(root, innovation, lower=True, check_finite=False)
         nis = np.sum(whitened * whitened)
+        self.judge_variance(np.diag(S))
         if not nis <= 1e30:  # or NaN: no answer, and not to be counted as gated
             raise Refused(Status.OVERFLOW)
         outputs = {"innovation": innovation, "variance": np.diag(S).copy(), "nis": np.array([nis])}
@@ -261,6 +262,9 @@ class Filter:
             name = f"rejected_{sensor.name}"
             answer[name] = np.array(given[name], dtype=np.uint32).ravel()
         return answer
+
+    def judge_variance(self, variance: Array) -> None:
+        """Refuse a variance of the innovation: none is, of a covariance within its ranges."""
 
     def accepted_noise(self, Q: Array) -> Array:
         """Return the process noise that is used: as it is."""

@@ -800,6 +800,7 @@ class _Builder:
             Compare(Element(row_variance, i), ">=", SMALLEST_VARIANCE, Element(prior, i)) for i in range(m)
         )
         body.append(Refuse(Status.NOT_POSITIVE, AllOf(positive)))
+        body += self.form.judge_report(m)
         finite = Within(Place("local", "nis"), (0.0,), (LARGEST_NIS,))
         body.append(Refuse(Status.OVERFLOW, finite))
         body.append(Assign(Place("out", "nis"), Place("local", "nis"), 1))

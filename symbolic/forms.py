@@ -32,6 +32,7 @@ from .program import (
     Place,
     Refuse,
     Statement,
+    Within,
     packed_index,
     packed_size,
     unpack_symmetric,
@@ -140,6 +141,10 @@ class Conventional:
     def hold(self) -> list[Statement]:
         """Keep the variances between floor and ceiling, refuse what cannot be."""
         return [HoldVariances(self.after, self.size, self.floor, self.ceiling)]
+
+    def judge_report(self, rows: int) -> list[Statement]:
+        """Refuse a variance of the innovation that is no number: of a covariance within its ranges there is none."""
+        return []
 
     def oracle(self, model: textbook.Model) -> Any:
         """Return the independent view."""
@@ -250,6 +255,10 @@ class Factored(Conventional):
     def hold(self) -> list[Statement]:
         """Keep variances below their ceilings and D above its floors, refuse what cannot be."""
         return [HoldFactors(self.after, self.size, self.floor, self.ceiling)]
+
+    def judge_report(self, rows: int) -> list[Statement]:
+        """Refuse a variance of the innovation beyond 1e30: factors within their ranges may make one."""
+        return [Refuse(Status.OVERFLOW, Within(Place("out", "variance"), (0.0,) * rows, (1e30,) * rows))]
 
     def oracle(self, model: textbook.Model) -> Any:
         """Return the independent view."""

@@ -1,39 +1,65 @@
-"""Frama-C's EVA on the pendulum's filter: what it proves, and that planted faults are alarms."""
+"""Frama-C's EVA on the C of every example: what it proves, and that planted faults are alarms."""
 
 from dataclasses import replace
 
 import pytest
-from plantc.codegen.proof import proof_source, prove
-from plantc.codegen.style import Precision
+from plantc.codegen.proof import ProofError, proof_tasks, prove, replaced
 from plantc.examples.pendulum import pendulum_ekf
 
-from plantc import emit
+from plantc import Block, connect, emit
+from plantc.regenerate import EXAMPLES
 
-PROVED = ["init", "predict", "update_encoder", "inflate"]
+FLOAT = emit(pendulum_ekf, "float")
 
 
-def test_the_harness_asserts_every_element_of_the_memory():
-    text = proof_source(pendulum_ekf, Precision("float"))
-    assert text.count("is_finite(state.covariance[1])") == len(pendulum_ekf.entries)
+def test_every_entry_and_every_judgement_is_a_task():
+    tasks = {task.name: task for task in proof_tasks(pendulum_ekf, FLOAT)}
+    assert set(tasks) == {"is_held", "is_bounded", "hold_variances", *pendulum_ekf.entries}
     low, high = (-100.0).hex(), (100.0).hex()  # a decimal would be a real number there
-    assert f"{low} <= state.omega <= {high}" in text
+    assert f"{low} <= state.omega <= {high}" in tasks["predict"].harness
+    # what a stub stands for is proved in the same run
+    assert "assert before != after" in tasks["step"].source
+    for name in ("predict", "update_encoder", "inflate"):
+        assert name in tasks
+
+
+def test_only_the_bodies_of_the_callees_are_replaced():
+    changed = replaced(FLOAT.source, {"pendulum_ekf_is_held": ["    return false;"]})
+    kept = [line for line in FLOAT.source.split("\n") if line in changed]
+    assert len(FLOAT.source.split("\n")) - len(kept) < 15
+    with pytest.raises(ProofError, match="no static function pendulum_ekf_absent"):
+        replaced(FLOAT.source, {"pendulum_ekf_absent": []})
+
+
+def test_a_composition_is_refused_in_a_sentence():
+    gain = Block("gain")
+    u = gain.input("u")
+    gain.entry("step", inputs=[u], outputs={"y": 2 * u})
+    both = connect({"gain": gain}, {}, "both")
+    with pytest.raises(ProofError, match="composition"):
+        proof_tasks(both, emit(both))
 
 
 @pytest.mark.slow
-def test_no_call_takes_the_memory_out_of_its_ranges(needs):
+@pytest.mark.parametrize(("block", "precision"), EXAMPLES, ids=[block.name for block, _ in EXAMPLES])
+def test_no_sequence_of_calls_takes_the_memory_out_of_its_ranges(needs, block, precision):
     needs("frama-c")
-    found = prove(pendulum_ekf, emit(pendulum_ekf, "float"), PROVED)
-    assert [check.note for check in found.checks if not check.passed] == []
-    assert all(found.facts["proof"][entry]["assertions"] >= 6 for entry in PROVED)
+    found = prove(block, emit(block, precision))
+    assert [(check.name, check.note) for check in found.checks if not check.passed] == []
+    assert set(block.entries) <= set(found.facts["proof"])
 
 
 FAULTS = {
-    "a range check removed": ("((after->omega <= 100.0f) == true)", "true"),
-    "an element not judged": ("&& ((covariance[1] <= ", "&& ((covariance[0] <= "),
+    "a range check removed": ("predict", "((after->omega <= 100.0f) == true)", "true"),
+    "an element not judged": ("is_bounded", "&& ((covariance[1] <= ", "&& ((covariance[0] <= "),
+    "an element of the exact test": ("is_held", "(i < 3U) && held", "(i < 2U) && held"),
     "commit before judge": (
+        "predict",
         "    if (status >= PENDULUM_EKF_OK)\n    {\n        *state = after;\n    }",
         "    *state = after;",
     ),
+    "a refused update is kept": ("step", "if (own >= PENDULUM_EKF_OK)", "if (own >= PENDULUM_EKF_OVERFLOW)"),
+    "held without the exact test": ("hold_variances", "(!pendulum_ekf_is_held(covariance))", "(covariance[0] < 0.0f)"),
 }
 
 
@@ -41,8 +67,8 @@ FAULTS = {
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_planted_fault_is_seen(needs, fault):
     needs("frama-c")
-    text = emit(pendulum_ekf, "float")
-    before, after = FAULTS[fault]
-    assert before in text.source
-    broken = replace(text, source=text.source.replace(before, after))
-    assert not all(check.passed for check in prove(pendulum_ekf, broken, ["predict"]).checks)
+    where, before, after = FAULTS[fault]
+    assert before in FLOAT.source
+    broken = replace(FLOAT, source=FLOAT.source.replace(before, after))
+    (check,) = prove(pendulum_ekf, broken, [where]).checks
+    assert not check.passed
