@@ -320,6 +320,13 @@ class FolderCheck:
         return not self.changed and not self.missing and self.check.passed
 
 
+def text_in(folder: Path, manifest: dict[str, Any]) -> CText:
+    """Return the C that lies in a folder."""
+    name = manifest["name"]
+    header, source = (folder / f"src/{name}.{end}" for end in ("h", "c"))
+    return CText(name, Precision(manifest["precision"]), header.read_text(), source.read_text(), {})
+
+
 def check_folder(
     folder: Path,
     block: Block,
@@ -360,8 +367,7 @@ def check_folder(
     native = NativeView(block, precision, contract=contract, mathematics=mathematics)
     header, source = present.get(f"src/{name}.h"), present.get(f"src/{name}.c")
     if header is not None and source is not None and manifest["model"] == block.model_hash():
-        lying = CText(name, Precision(precision), header, source, {})
-        native = NativeView(block, precision, text=lying, contract=contract)
+        native = NativeView(block, precision, text=text_in(folder, manifest), contract=contract)
     views = make_views(block, precision, native)
     check = cross_check(
         block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)

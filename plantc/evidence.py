@@ -7,15 +7,17 @@ from typing import Any
 
 from .codegen.audit import AuditError
 from .codegen.compiler import CompilerError
+from .codegen.exported import MissingTool
 from .codegen.findings import CheckResult
 from .codegen.package import DesignError, Export
+from .codegen.proof import ProofError
 from .models import UsageError
 from .symbolic import ModelError
 
 
 def sentence(error: Exception) -> str:
     """Return what the user reads of an error that stops a command."""
-    if isinstance(error, (UsageError, ModelError, DesignError, CompilerError, AuditError)):
+    if isinstance(error, (UsageError, ModelError, DesignError, CompilerError, AuditError, MissingTool, ProofError)):
         return str(error)
     if isinstance(error, OSError):
         return f"{error.filename}: {error.strerror}" if error.filename and error.strerror else str(error)

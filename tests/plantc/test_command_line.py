@@ -564,3 +564,22 @@ def test_the_demo_exports_and_draws(model, plantc, tmp_path):
     assert (tmp_path / "shown/quadrotor_ekf.svg").read_text().startswith("<?xml")
     assert answer["blocks"][0]["passed"]
     assert "native = reference" in said.err
+
+
+@pytest.mark.slow
+def test_check_proves_what_lies_there(model, plantc, needs, tmp_path):
+    needs("frama-c")
+    name, folder = model(PENDULUM), tmp_path / "generated_c/pendulum_ekf"
+    assert plantc("export", f"{name}:pendulum_ekf", *FAST, "--precision", "float").status == 0
+    said = plantc("check", folder, "--model", f"{name}:pendulum_ekf", *FAST, "--prove", "--json")
+    assert said.status == 0, said.err
+    proved = [item for item in one_object(said)["checks"] if item["name"].startswith("proof of ")]
+    assert {"proof of step", "proof of is_held"} <= {item["name"] for item in proved}
+    source = folder / "src/pendulum_ekf.c"
+    whole = source.read_text()
+    spoilt = whole.replace("(i < 3U) && held", "(i < 2U) && held")
+    assert spoilt != whole
+    source.write_text(spoilt)
+    bad = plantc("check", folder, "--model", f"{name}:pendulum_ekf", *FAST, "--prove")
+    assert bad.status == 1
+    assert "FAIL proof of is_held" in bad.err
