@@ -1,4 +1,4 @@
-/* quadrotor_ud: see quadrotor_ud.h. Written by plantc 0.1.0 from model 9ad45628. */
+/* quadrotor_ud: see quadrotor_ud.h. Written by plantc 0.1.0 from model e19130e8. */
 #include "quadrotor_ud.h"
 
 #include <math.h>
@@ -2828,61 +2828,73 @@ static quadrotor_ud_status_t quadrotor_ud_update_pose_core(const quadrotor_ud_st
         }
         else
         {
-            if (!(((nis[0] >= 0.0f) == true) && ((nis[0] <= 1.0e30f) == true)))
+            if (!(((out->variance[0] >= 0.0f) == true) && ((out->variance[0] <= 1.0e30f) == true)
+                  && ((out->variance[1] >= 0.0f) == true) && ((out->variance[1] <= 1.0e30f) == true)
+                  && ((out->variance[2] >= 0.0f) == true) && ((out->variance[2] <= 1.0e30f) == true)
+                  && ((out->variance[3] >= 0.0f) == true) && ((out->variance[3] <= 1.0e30f) == true)
+                  && ((out->variance[4] >= 0.0f) == true) && ((out->variance[4] <= 1.0e30f) == true)
+                  && ((out->variance[5] >= 0.0f) == true) && ((out->variance[5] <= 1.0e30f) == true)))
             {
                 status = QUADROTOR_UD_OVERFLOW;
             }
             else
             {
-                out->nis = nis[0];
-
-                /* accepted? */
-                if ((gate <= 0.0f) || (nis[0] <= gate))
+                if (!(((nis[0] >= 0.0f) == true) && ((nis[0] <= 1.0e30f) == true)))
                 {
-                    /* x = x + d */
-                    after->x = before->x + delta[0];
-                    after->vx = before->vx + delta[1];
-                    after->y = before->y + delta[2];
-                    after->vy = before->vy + delta[3];
-                    after->z = before->z + delta[4];
-                    after->vz = before->vz + delta[5];
-                    after->roll = before->roll + delta[6];
-                    after->roll_rate = before->roll_rate + delta[7];
-                    after->pitch = before->pitch + delta[8];
-                    after->pitch_rate = before->pitch_rate + delta[9];
-                    after->yaw = before->yaw + delta[10];
-                    after->yaw_rate = before->yaw_rate + delta[11];
-                    after->rejected_pose = 0U;
-
-                    /* judge, then commit */
-                    status = quadrotor_ud_hold_factors(after->factors);
-                    if (status >= QUADROTOR_UD_OK)
-                    {
-                        if (!(((after->x >= -10000.0f) == true) && ((after->x <= 10000.0f) == true)
-                              && ((after->vx >= -1000.0f) == true) && ((after->vx <= 1000.0f) == true)
-                              && ((after->y >= -10000.0f) == true) && ((after->y <= 10000.0f) == true)
-                              && ((after->vy >= -1000.0f) == true) && ((after->vy <= 1000.0f) == true)
-                              && ((after->z >= -10000.0f) == true) && ((after->z <= 10000.0f) == true)
-                              && ((after->vz >= -1000.0f) == true) && ((after->vz <= 1000.0f) == true)
-                              && ((after->roll >= -30.0f) == true) && ((after->roll <= 30.0f) == true)
-                              && ((after->roll_rate >= -100.0f) == true) && ((after->roll_rate <= 100.0f) == true)
-                              && ((after->pitch >= -30.0f) == true) && ((after->pitch <= 30.0f) == true)
-                              && ((after->pitch_rate >= -100.0f) == true) && ((after->pitch_rate <= 100.0f) == true)
-                              && ((after->yaw >= -30.0f) == true) && ((after->yaw <= 30.0f) == true)
-                              && ((after->yaw_rate >= -100.0f) == true) && ((after->yaw_rate <= 100.0f) == true)))
-                        {
-                            status = QUADROTOR_UD_OVERFLOW;
-                        }
-                    }
+                    status = QUADROTOR_UD_OVERFLOW;
                 }
                 else
                 {
-                    *after = *before;
-                    if (after->rejected_pose < UINT32_MAX)
+                    out->nis = nis[0];
+
+                    /* accepted? */
+                    if ((gate <= 0.0f) || (nis[0] <= gate))
                     {
-                        after->rejected_pose = after->rejected_pose + 1U;
+                        /* x = x + d */
+                        after->x = before->x + delta[0];
+                        after->vx = before->vx + delta[1];
+                        after->y = before->y + delta[2];
+                        after->vy = before->vy + delta[3];
+                        after->z = before->z + delta[4];
+                        after->vz = before->vz + delta[5];
+                        after->roll = before->roll + delta[6];
+                        after->roll_rate = before->roll_rate + delta[7];
+                        after->pitch = before->pitch + delta[8];
+                        after->pitch_rate = before->pitch_rate + delta[9];
+                        after->yaw = before->yaw + delta[10];
+                        after->yaw_rate = before->yaw_rate + delta[11];
+                        after->rejected_pose = 0U;
+
+                        /* judge, then commit */
+                        status = quadrotor_ud_hold_factors(after->factors);
+                        if (status >= QUADROTOR_UD_OK)
+                        {
+                            if (!(((after->x >= -10000.0f) == true) && ((after->x <= 10000.0f) == true)
+                                  && ((after->vx >= -1000.0f) == true) && ((after->vx <= 1000.0f) == true)
+                                  && ((after->y >= -10000.0f) == true) && ((after->y <= 10000.0f) == true)
+                                  && ((after->vy >= -1000.0f) == true) && ((after->vy <= 1000.0f) == true)
+                                  && ((after->z >= -10000.0f) == true) && ((after->z <= 10000.0f) == true)
+                                  && ((after->vz >= -1000.0f) == true) && ((after->vz <= 1000.0f) == true)
+                                  && ((after->roll >= -30.0f) == true) && ((after->roll <= 30.0f) == true)
+                                  && ((after->roll_rate >= -100.0f) == true) && ((after->roll_rate <= 100.0f) == true)
+                                  && ((after->pitch >= -30.0f) == true) && ((after->pitch <= 30.0f) == true)
+                                  && ((after->pitch_rate >= -100.0f) == true) && ((after->pitch_rate <= 100.0f) == true)
+                                  && ((after->yaw >= -30.0f) == true) && ((after->yaw <= 30.0f) == true)
+                                  && ((after->yaw_rate >= -100.0f) == true) && ((after->yaw_rate <= 100.0f) == true)))
+                            {
+                                status = QUADROTOR_UD_OVERFLOW;
+                            }
+                        }
                     }
-                    status = quadrotor_ud_higher(status, QUADROTOR_UD_GATED);
+                    else
+                    {
+                        *after = *before;
+                        if (after->rejected_pose < UINT32_MAX)
+                        {
+                            after->rejected_pose = after->rejected_pose + 1U;
+                        }
+                        status = quadrotor_ud_higher(status, QUADROTOR_UD_GATED);
+                    }
                 }
             }
         }
@@ -3175,7 +3187,7 @@ quadrotor_ud_status_t quadrotor_ud_inflate(quadrotor_ud_state_t *state, const qu
 /* The hash of the model, as in the header. */
 const char *quadrotor_ud_model(void)
 {
-    return "9ad45628";
+    return "e19130e8";
 }
 
 /* A sentence for a status. */

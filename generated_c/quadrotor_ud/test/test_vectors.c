@@ -1,4 +1,4 @@
-/* Test vectors of quadrotor_ud with their runner. Written by plantc 0.1.0 from model 9ad45628.
+/* Test vectors of quadrotor_ud with their runner. Written by plantc 0.1.0 from model e19130e8.
  *
  * Each call starts from a stated memory; what it gives is compared with what the Python model gave, in units of the
  * natural size of each field. Build with quadrotor_ud.c; returns 0 if all agree. For hosts: it prints.
@@ -904,7 +904,7 @@ static int texts_are_wrong(void)
         QUADROTOR_UD_OVERFLOW
     };
     const char *const unknown = quadrotor_ud_status_text((quadrotor_ud_status_t)127);
-    int wrong = (strcmp(quadrotor_ud_model(), "9ad45628") != 0);
+    int wrong = (strcmp(quadrotor_ud_model(), "e19130e8") != 0);
 
     for (size_t i = 0; i < (sizeof(known) / sizeof(known[0])); i++)
     {

@@ -1,5 +1,5 @@
 /* Calls every entry of quadrotor_ud with plausible and implausible values, and looks at what each call leaves behind.
- * Written by plantc 0.1.0 from model 9ad45628.
+ * Written by plantc 0.1.0 from model e19130e8.
  *
  * After a refused call memory and outputs must be bit for bit what they were. After any other call the memory must be
  * within its stated ranges; and where the parameters are within theirs, outputs that are judged must be within theirs,
@@ -172,7 +172,8 @@ static const range_t ranges[] = {
     { -3.1622777e14f, 3.1622777e14f },
     { 1.0e-20f, 1.0e9f },
     { -1000000.0f, 1000000.0f },
-    { -FLT_MAX, FLT_MAX }
+    { -FLT_MAX, FLT_MAX },
+    { 0.0f, 1.0e30f }
 };
 
 static const field_t state_fields[] = {
@@ -249,7 +250,7 @@ static const field_t update_pose_in_fields[] = {
 
 static const field_t update_pose_out_fields[] = {
     { "innovation", offsetof(quadrotor_ud_update_pose_out_t, innovation), 6U, KIND_REAL, 86U, 0U, 0U },
-    { "variance", offsetof(quadrotor_ud_update_pose_out_t, variance), 6U, KIND_REAL, 86U, 0U, 0U },
+    { "variance", offsetof(quadrotor_ud_update_pose_out_t, variance), 6U, KIND_REAL, 87U, 0U, 0U },
     { "nis", offsetof(quadrotor_ud_update_pose_out_t, nis), 1U, KIND_REAL, 86U, 0U, 0U }
 };
 
