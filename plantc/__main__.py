@@ -19,6 +19,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from . import models, parallel
 from .codegen.audit import AUDITS, AuditResult, audit_folder
 from .codegen.emit import generator_version
+from .codegen.findings import verdict_text
 from .codegen.mathematics import CHOICES
 from .codegen.options import Options
 from .codegen.package import (
@@ -34,7 +35,7 @@ from .codegen.package import (
 from .codegen.proof import prove
 from .codegen.style import Precision
 from .codegen.targets import TARGETS
-from .evidence import checks_text, evidence_text, export_json, sentence
+from .evidence import MARKS, checks_text, evidence_text, export_json, sentence
 from .models import UsageError
 from .symbolic import Block
 
@@ -282,9 +283,14 @@ def export_command(
         exports = _export_all(session, blocks, path, out, options, steps, redesign, fmu, not no_cache)
         result = {"blocks": [export_json(item) for item in exports]}
         folders = ", ".join(str(item.folder) for item in exports)
-        session.finish(result, f"exported, all checks passed: {folders}", GOOD)
+        session.finish(result, f"exported, {_verdict(result)}: {folders}", GOOD)
 
     session.run(body)
+
+
+def _verdict(result: dict[str, Any]) -> str:
+    """Return what is to be said of the checks of exported blocks."""
+    return verdict_text(check["verdict"] for block in result["blocks"] for check in block["checks"])
 
 
 def _finish_jobs(session: Session, outcomes: list[parallel.Outcome]) -> NoReturn:
@@ -301,7 +307,7 @@ def _finish_jobs(session: Session, outcomes: list[parallel.Outcome]) -> NoReturn
         rest = f"; {len(done['blocks'])} of {len(outcomes)} blocks were exported"
         session.finish({"error": text, **done}, f"{word}: {text}{rest}", worst)
     folders = ", ".join(item["folder"] for item in done["blocks"])
-    session.finish(done, f"exported, all checks passed: {folders}", GOOD)
+    session.finish(done, f"exported, {_verdict(done)}: {folders}", GOOD)
 
 
 def _options(
@@ -397,7 +403,8 @@ def check_command(
             "checks": [item.as_dict() for item in found.check.results],
         }
         if found.passed:
-            session.finish(result, f"{folder}: as the model gives it, all checks passed", GOOD)
+            verdict = verdict_text(item.verdict for item in found.check.results)
+            session.finish(result, f"{folder}: as the model gives it, {verdict}", GOOD)
         what = "a check failed" if not found.check.passed else "not what the model gives now; export again"
         session.finish(result, f"failed: {folder}: {what}", CHECK_FAILED)
 
@@ -452,9 +459,8 @@ def audit_text(found: AuditResult) -> list[str]:
     """Return what the audits of a folder found, for a terminal."""
     lines = []
     for check in found.checks:
-        mark = "ok  " if check.passed else "FAIL"
         calls = f"  {check.calls} calls" if check.calls else ""
-        lines.append(f"  {mark} {check.name}{calls}{f'  {check.note}' if check.note else ''}")
+        lines.append(f"  {MARKS[check.verdict]} {check.name}{calls}{f'  {check.remark}' if check.remark else ''}")
     for row in found.findings["misra"].facts["deviations"] if "misra" in found.findings else []:
         lines.append(f"       {row['file']}: rule {row['rule']}, {row['count']} times: {row['reason']}")
     lines += [f"  not run: {name}" for name in found.missing]
