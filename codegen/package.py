@@ -132,7 +132,8 @@ def build_files(block: Block, options: Options | str = "double") -> dict[str, st
     chosen = options if isinstance(options, Options) else Options(Precision(options))
     precision = chosen.precision.name
     text = emit(block, precision, mathematics=chosen.mathematics)
-    vectors = choose_vectors(block, precision, _rare_calls(block, precision))
+    native = NativeView(block, precision, text=text if chosen.mathematics == "own" else None)
+    vectors = choose_vectors(block, precision, _rare_calls(block, precision, native), native)
     name = block.name
     context: dict[str, Any] = {
         "name": name,
@@ -148,7 +149,7 @@ def build_files(block: Block, options: Options | str = "double") -> dict[str, st
     files = {
         f"src/{name}.h": text.header,
         f"src/{name}.c": text.source,
-        "test/test_vectors.c": vectors_source(block, precision, vectors),
+        "test/test_vectors.c": vectors_source(block, precision, vectors, native),
         "examples/example_main.c": wrapped(main),
         "verify/fuzz_main.c": fuzz_source(block, chosen.precision),
         **package_files(block, chosen, context),
@@ -165,9 +166,9 @@ def _coverage(draft: Draft) -> Findings:
     )
 
 
-def _rare_calls(block: Block, precision: str) -> CrossCheck:
+def _rare_calls(block: Block, precision: str, native: NativeView | None = None) -> CrossCheck:
     """Return calls from which the vectors are chosen, answered by the model's own C: those of a default cross-check."""
-    native = NativeView(block, precision)
+    native = native or NativeView(block, precision)
     probes = make_probes(block, precision, make_views(block, precision, native), VECTOR_STEPS, 0)
     for probe in probes:
         probe.answer = native.call(probe.entry, probe.memory, probe.inputs, probe.params)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..symbolic.block import Block
-from ..symbolic.program import AllOf, Call, Entry, HoldVariances, Refuse, Statement, Visit, judgements, numbered
+from ..symbolic.program import AllOf, Call, Entry, HoldVariances, Refuse, Statement, Visit, judgements, numbered, walk
 from ..symbolic.signals import Kind, Signal, Status
 from .crosscheck import Probe
 from .layout import fill, flatten
@@ -107,16 +107,40 @@ def chosen(
     return answer_, seen
 
 
+def within_reach(block: Block) -> dict[str, frozenset[str]]:
+    """Return, for each entry, the labels of the features that a call of it may reach."""
+    answer = {}
+    for entry in block.entries.values():
+        labels, open_ = set(), [(block, entry, "")]
+        while open_:
+            owner, inner, path = open_.pop()
+            label = path + inner.name
+            if label in labels:
+                continue
+            labels |= {label, path.rstrip(".")}  # what is held in one function of a part counts for the part
+            for statement in walk(inner.body):
+                if isinstance(statement, Call):
+                    part = owner.parts[statement.part] if statement.part else owner
+                    below = f"{path}{statement.part}." if statement.part else path
+                    open_.append((part, part.entries[statement.entry], below))
+        answer[entry.name] = frozenset(labels)
+    return answer
+
+
 def added(
+    block: Block,
     probes: Iterator[Probe],
     missing: frozenset[Feature],
+    shipped: Callable[[Probe], Probe],
     run: Callable[[Probe], Answer],
     usable: Callable[[Probe], bool],
 ) -> list[Probe]:
-    """Return, of calls in their order, each that reaches something that is still missing."""
+    """Return, of calls in their order, each, as it is shipped, that reaches something that is still missing."""
     answer: list[Probe] = []
     left = set(missing)
-    for probe in islice(probes, MOST_TRIED):
+    reach = within_reach(block)
+    hopeful = (probe for probe in probes if any(feature[1] in reach[probe.entry] for feature in left))
+    for probe in map(shipped, islice(hopeful, MOST_TRIED)):
         if not left:
             break
         tried = run(probe)
@@ -134,9 +158,9 @@ def crafted(block: Block, view: View, probes: Sequence[Probe], missing: frozense
     counters at their limit, fields at and beyond the ends of their ranges, and as the last resort not a number.
     """
     wanted = {str(feature[1]) for feature in missing}
+    reach = within_reach(block)
     for name, entry in block.entries.items():
-        # what a part lacks, or what is held in one function for all entries, any entry may reach
-        if not any(label == name or "." in label or not label for label in wanted):
+        if not wanted & reach[name]:
             continue
         params = view.params()
         if entry.checks_params:
@@ -171,9 +195,6 @@ def crafted(block: Block, view: View, probes: Sequence[Probe], missing: frozense
             for given in (up, *alone):
                 yield probe(memory, fill(given.copy(), values), params)
                 yield probe(late, fill(given.copy(), values), limited)
-        for values in _bad_fields(block.param_signals_flat(), flatten(params)):
-            yield probe(memory, up, fill(params.copy(), values))
-            yield probe(late, up, fill(limited.copy(), values))
         for values in _all_at_an_end(block.memory_signals_flat()):
             for ends in _ends(entry.inputs):
                 yield probe(fill(memory.copy(), values), fill(up.copy(), ends), params)
@@ -190,6 +211,9 @@ def crafted(block: Block, view: View, probes: Sequence[Probe], missing: frozense
             for given in (down, *(alone if len(alone) > 1 else [])):
                 yield probe(fill(memory.copy(), values), given, params)
                 yield probe(fill(late.copy(), values), given, limited)
+        for values in _bad_fields(block.param_signals_flat(), flatten(params)):
+            yield probe(memory, up, fill(params.copy(), values))
+            yield probe(late, up, fill(limited.copy(), values))
 
 
 def _bad_fields(signals: Sequence[Signal], values: dict[str, Any]) -> Iterator[dict[str, Any]]:

@@ -109,7 +109,7 @@ class VectorTable:
         return self.precision.literal(float(f"{number:.{self.digits - 1}e}"))
 
 
-def choose_vectors(block: Block, precision: str, check: CrossCheck) -> VectorTable:
+def choose_vectors(block: Block, precision: str, check: CrossCheck, native: NativeView | None = None) -> VectorTable:
     """Return the vectors: a nominal sequence, then calls that reach every other statement and every other status.
 
     Parameters
@@ -120,10 +120,12 @@ def choose_vectors(block: Block, precision: str, check: CrossCheck) -> VectorTab
         Of the C.
     check : CrossCheck
         Whose calls are candidates; what none of them reaches, calls crafted for it may.
+    native : NativeView, optional
+        The model's own C, where it is compiled already.
     """
     table = VectorTable(block, Precision(precision))
     view = InterpretView(block)
-    shape = NativeView(block, precision)
+    shape = native or NativeView(block, precision)
     scenario = block.scenario or default_scenario(block)
     stream: Any = FrozenStream(1)
     params = shape.params()
@@ -154,14 +156,13 @@ def choose_vectors(block: Block, precision: str, check: CrossCheck) -> VectorTab
     ]
     picked, seen = chosen((shipped(probe) for probe in calls), seen, run, usable)
     missing = reachable(block) - seen
-    rare = (shipped(probe) for probe in crafted(block, shape, check.calls, missing))
-    picked += added(rare, missing, run, usable)
+    picked += added(block, crafted(block, shape, check.calls, missing), missing, shipped, run, usable)
     for probe in picked:
         _add(table, view, shape, probe)
     return table
 
 
-def vectors_source(block: Block, precision: str, table: VectorTable) -> str:
+def vectors_source(block: Block, precision: str, table: VectorTable, native: NativeView | None = None) -> str:
     """Return the C text of vectors with their runner.
 
     Parameters
@@ -172,9 +173,12 @@ def vectors_source(block: Block, precision: str, table: VectorTable) -> str:
         Of the C.
     table : VectorTable
         What `choose_vectors` chose.
+    native : NativeView, optional
+        The model's own C, where it is compiled already.
     """
     kind = Precision(precision)
-    sizes = _sizes(block, NativeView(block, precision), InterpretView(block), NativeView(block, precision).params())
+    shape = native or NativeView(block, precision)
+    sizes = _sizes(block, shape, InterpretView(block), shape.params())
     memory = _comparisons(block.memory_group().members, "state", "wanted")
     called = {vector.entry for vector in table.vectors}
     outputs = {entry.name: _comparisons(entry.outputs, "answer", "expected") for entry in block.entries.values()}

@@ -20,7 +20,7 @@ from . import models, parallel
 from .codegen.audit import AUDITS, AuditResult, audit_folder
 from .codegen.emit import generator_version
 from .codegen.exported import tool
-from .codegen.findings import CheckResult
+from .codegen.findings import CheckResult, verdict_text
 from .codegen.mathematics import CHOICES
 from .codegen.options import Options
 from .codegen.package import (
@@ -37,7 +37,7 @@ from .codegen.proof import prove
 from .codegen.rounding import Bound, bound_rounding
 from .codegen.style import Precision
 from .codegen.targets import TARGETS
-from .evidence import checks_text, evidence_text, export_json, rounding_text, sentence
+from .evidence import MARKS, checks_text, evidence_text, export_json, rounding_text, sentence
 from .models import UsageError
 from .symbolic import Block
 
@@ -285,9 +285,14 @@ def export_command(
         exports = _export_all(session, blocks, path, out, options, steps, redesign, fmu, not no_cache)
         result = {"blocks": [export_json(item) for item in exports]}
         folders = ", ".join(str(item.folder) for item in exports)
-        session.finish(result, f"exported, all checks passed: {folders}", GOOD)
+        session.finish(result, f"exported, {_verdict(result)}: {folders}", GOOD)
 
     session.run(body)
+
+
+def _verdict(result: dict[str, Any]) -> str:
+    """Return what is to be said of the checks of exported blocks."""
+    return verdict_text(check["verdict"] for block in result["blocks"] for check in block["checks"])
 
 
 def _finish_jobs(session: Session, outcomes: list[parallel.Outcome]) -> NoReturn:
@@ -304,7 +309,7 @@ def _finish_jobs(session: Session, outcomes: list[parallel.Outcome]) -> NoReturn
         rest = f"; {len(done['blocks'])} of {len(outcomes)} blocks were exported"
         session.finish({"error": text, **done}, f"{word}: {text}{rest}", worst)
     folders = ", ".join(item["folder"] for item in done["blocks"])
-    session.finish(done, f"exported, all checks passed: {folders}", GOOD)
+    session.finish(done, f"exported, {_verdict(done)}: {folders}", GOOD)
 
 
 def _options(
@@ -404,7 +409,8 @@ def check_command(
             **({"rounding": [item.as_dict() for item in bounds]} if proved else {}),
         }
         if found.passed:
-            session.finish(result, f"{folder}: as the model gives it, all checks passed", GOOD)
+            verdict = verdict_text(item.verdict for item in found.check.results)
+            session.finish(result, f"{folder}: as the model gives it, {verdict}", GOOD)
         what = "a check failed" if not found.check.passed else "not what the model gives now; export again"
         session.finish(result, f"failed: {folder}: {what}", CHECK_FAILED)
 
@@ -479,9 +485,8 @@ def audit_text(found: AuditResult) -> list[str]:
     """Return what the audits of a folder found, for a terminal."""
     lines = []
     for check in found.checks:
-        mark = "ok  " if check.passed else "FAIL"
         calls = f"  {check.calls} calls" if check.calls else ""
-        lines.append(f"  {mark} {check.name}{calls}{f'  {check.note}' if check.note else ''}")
+        lines.append(f"  {MARKS[check.verdict]} {check.name}{calls}{f'  {check.remark}' if check.remark else ''}")
     for row in found.findings["misra"].facts["deviations"] if "misra" in found.findings else []:
         lines.append(f"       {row['file']}: rule {row['rule']}, {row['count']} times: {row['reason']}")
     lines += [f"  not run: {name}" for name in found.missing]

@@ -12,6 +12,7 @@ import numpy as np
 
 from .codegen.audit import AuditError
 from .codegen.compiler import CompilerError
+from .codegen.costs import Cost, read
 from .codegen.exported import MissingTool
 from .codegen.findings import CheckResult
 from .codegen.package import DesignError, Export
@@ -82,38 +83,44 @@ def operations_text(entries: dict[str, Any]) -> list[str]:
 def targets_text(targets: dict[str, Any]) -> list[str]:
     """Return a table of what the code costs on each target."""
     lines = [
-        f"  {'target':<10} {'text':>7} {'data':>6} {'bss':>6} {'stack':>6}  instructions per call, the most seen (and a bound)"
+        f"  {'target':<10} {'text':>7} {'data':>6} {'bss':>6} {'stack':>6}  instructions per call, the most seen (<= a bound)"
     ]
     for name, facts in targets.items():
-        sizes, stack, counts = facts["object"], facts["stack"], facts["instructions"]
+        sizes, stack, counts = facts["object"], read("stack", facts), read("instructions", facts)
         columns = [f"{sizes[key]:>{width}}" if isinstance(sizes, dict) else "-".rjust(width)
                    for key, width in (("text", 7), ("data", 6), ("bss", 6))]  # fmt: skip
-        deepest = f"{max(stack.values()):>6}" if isinstance(stack, dict) else "-".rjust(6)
-        most = facts.get("instruction_bound", {})
-        bounds = (
-            {key: f" (<= {most[key]})" for key in most if isinstance(most[key], int)} if isinstance(most, dict) else {}
-        )
-        text = counts
-        if isinstance(counts, dict):
-            text = ", ".join(f"{key} {value}{bounds.get(key, '')}" for key, value in counts.items())
-        lines.append(f"  {name:<10} {' '.join(columns)} {deepest}  {text}")
+        deepest = max((item.seen for item in stack.values() if isinstance(item.seen, int)), default="-")
+        if deepest == "-" and stack and all(isinstance(item.bound, int) for item in stack.values()):
+            deepest = f"<={max(int(item.bound) for item in stack.values())}"
+        lines.append(f"  {name:<10} {' '.join(columns)} {deepest:>6}  {', '.join(map(_cost_text, counts.items()))}")
     return lines if targets else []
+
+
+def _cost_text(item: tuple[str, Cost]) -> str:
+    entry, cost = item
+    words = [str(cost.seen)] if isinstance(cost.seen, int) else []
+    words += [f"(<= {cost.bound})"] if isinstance(cost.bound, int) else []
+    return f"{entry} {' '.join(words) or 'not known'}"
+
+
+MARKS = {"passed": "ok  ", "failed": "FAIL", "not judged": "--  "}
+"""What stands before a check, by its verdict."""
 
 
 def checks_text(results: list[CheckResult]) -> list[str]:
     """Return one line for each check."""
     lines = []
     for result in results:
-        mark = "ok  " if result.passed else "FAIL"
-        text = f"  {mark} {result.name:<38} {result.calls:>5} calls"
+        calls = f"{result.calls:>5} calls" if result.calls else " " * 11
+        text = f"  {MARKS[result.verdict]} {result.name:<38} {calls}".rstrip()
         if result.limit:
             text += f"  worst {result.worst:8.1e}  limit {result.limit:.0e}"
         if result.at_switches:
             text += f"  ({result.at_switches} at a switch)"
         if result.ill_conditioned:
             text += f"  ({result.ill_conditioned} ill-conditioned)"
-        if result.note:
-            text += f"  {result.note}"
+        if result.remark:
+            text += f"  {result.remark}"
         lines.append(text)
         if result.mismatch is not None:
             lines.append(f"       {result.mismatch}")
