@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from ..reference import estimators as textbook
 from .block import Block, DerivativeCheck, Scenario
+from .derivation import Derivation, dynamics_equations, known_sources, name_of, plant_equations
 from .discretisation import process_covariance, transition
 from .errors import ModelError
-from .expressions import equation_text, number_text, numpy_callable, tape
+from .expressions import equation_text, tape
 from .forms import Conventional, Rows, form_named
 from .kernels import SMALLEST_VARIANCE, Decorrelate, Pattern, Pivots
 from .names import check_unique
@@ -48,8 +49,6 @@ from .signals import Kind, Signal, Status, power_of_unit, spread
 Array = NDArray[Any]
 LARGEST_NIS = 1.0e30
 """A normalised innovation squared beyond it, or NaN, is refused (OVERFLOW): it is no answer, and must not be counted."""
-
-Targets = tuple[tuple[Place, int], ...]
 
 
 def extended_kalman_filter(
@@ -236,10 +235,6 @@ class _Options:
     form: str
 
 
-def _name_of(key: Symbol | str) -> str:
-    return key if isinstance(key, str) else key.signal.name
-
-
 def _upper(matrix: ca.SX) -> tuple[Pattern, ca.SX]:
     """Return pattern and values of the upper triangle of a symmetric expression, row by row, exact zeros left out."""
     sparse = ca.sparsify(matrix)
@@ -268,46 +263,30 @@ class _Measurement:
     R: ca.SX
 
 
-class _Builder:
+class _Builder(Derivation):
     """Derives everything, then assembles the Block."""
 
     def __init__(self, plant: Plant, options: _Options):
-        self.plant, self.options = plant, options
         name = options.name
         for what in ("initial_variance", "around", "gate"):
             given = getattr(options, what)
             if not isinstance(given, Mapping):
                 raise ModelError(f"{name}: {what} is {given!r}; give a dictionary, name -> number")
-        if not plant.is_discrete:
-            raise ModelError(
-                f"{plant.name}: an estimator runs in discrete time, and this plant is continuous; give it "
-                f"{plant.name}.discretise('rk4', dt=...)"
-            )
-        plant.dynamics_expression()
-        if not plant.sensors:
-            raise ModelError(f"{plant.name}: an estimator needs a sensor, and this plant has none; add sensor(...)")
-        used = plant.process_noises + [noise for sensor in plant.sensors for noise in plant.sensor_noises(sensor)]
-        for noise in plant.noises:
-            if all(noise is not item for item in used):
-                raise ModelError(
-                    f"{plant.name}: the noise {noise.signal.name!r} enters neither dynamics nor sensors; use it or leave it out"
-                )
+        super().__init__(plant, name, options.doc, options.around)
+        self.options = options
         self.n = plant.error_size
-        self.block = Block(name, doc=options.doc)
-        self.block.sample_time = plant.dt if isinstance(plant.dt, float) else None
         self.floor = self._per_error(options.floor, "variance_floor", 1e-30, 1e30)
         self.ceiling = self._per_error(options.ceiling, "variance_ceiling", 1e-30, 1e15)
         if any(low >= high for low, high in zip(self.floor, self.ceiling, strict=True)):
             raise ModelError(f"{name}: a variance floor is not below its ceiling; lower variance_floor")
         self.form = form_named(options.form, name)(self.n, self.floor, self.ceiling)
-        self.noise_symbols: list[tuple[Signal, ca.SX]] = []
         self._declare()
 
     # -- what the user said -------------------------------------------------------------------------------------------
 
     def _per_error(self, given: Any, what: str, low: float, high: float) -> tuple[float, ...]:
         """Return one number for each component of the error."""
-        table = {_name_of(key): value for key, value in given.items()} if isinstance(given, Mapping) else None
+        table = {name_of(key): value for key, value in given.items()} if isinstance(given, Mapping) else None
         unknown = set(table or {}) - {state.signal.name for state in self.plant.states}
         if unknown:
             raise ModelError(f"{self.options.name}: {what} names {sorted(unknown)}, which are no states")
@@ -335,32 +314,6 @@ class _Builder:
                 )
             answer += items
         return tuple(answer)
-
-    def _nominal(self) -> tuple[Array, Array]:
-        """Return nominal state and input vectors."""
-        given = {_name_of(key): value for key, value in dict(self.options.around).items()}
-        known = [*[state.symbol for state in self.plant.states], *self.plant.inputs]
-        unknown = set(given) - {symbol.signal.name for symbol in known}
-        if unknown:
-            raise ModelError(
-                f"{self.options.name}: around= names {sorted(unknown)}, which are neither states nor inputs"
-            )
-        vectors = []
-        for symbols in ([state.symbol for state in self.plant.states], self.plant.inputs):
-            parts: list[float] = []
-            for symbol in symbols:
-                signal = symbol.signal
-                attitude = any(state.symbol is symbol and state.attitude for state in self.plant.states)
-                default = (1.0, 0.0, 0.0, 0.0) if attitude else np.clip(0.0, signal.low, signal.high)
-                value = np.asarray(spread(given.get(signal.name, default), signal.size))
-                if value.size != signal.size or not np.all((value >= signal.low) & (value <= signal.high)):
-                    raise ModelError(
-                        f"{self.options.name}: around= gives {value.tolist()} for {signal.name!r}, outside its range or of "
-                        f"another size; its range is {signal.low[0]:g} .. {signal.high[0]:g}"
-                    )
-                parts += value.tolist()
-            vectors.append(np.array(parts))
-        return vectors[0], vectors[1]
 
     # -- declarations -------------------------------------------------------------------------------------------------
 
@@ -480,30 +433,10 @@ class _Builder:
 
     def _declare_memory(self) -> None:
         plant, block = self.plant, self.block
-        x0, _ = self._nominal()
         variances = self._per_error(
             self.options.initial_variance, "initial_variance", LOWEST_VARIANCE, HIGHEST_VARIANCE
         )
-        for state in plant.states:
-            signal = state.signal
-            doc = signal.doc or ("attitude, body to world (w, x, y, z)" if state.attitude else "")
-            suffix = " (wrapped)" if signal.angle else ""
-            block.memory_signals.append(Signal(**{**signal.__dict__, "doc": doc + suffix}))
-            low, high = ((-math.pi,), (math.pi,)) if signal.angle else (signal.low, signal.high)
-            low, high = low * (signal.size // len(low)), high * (signal.size // len(high))
-            default = tuple(float(item) for item in x0[state.at])
-            block.param_signals.append(
-                Signal(
-                    f"{signal.name}_0",
-                    signal.size,
-                    signal.unit,
-                    low,
-                    high,
-                    f"initial {signal.name}",
-                    default=default,
-                    source=signal.source,
-                )
-            )
+        self.declare_states()
         for state in plant.states:
             size = state.error_at.stop - state.error_at.start
             unit = power_of_unit("rad" if state.attitude else state.signal.unit, 2)
@@ -581,60 +514,6 @@ class _Builder:
 
     # -- assembly -----------------------------------------------------------------------------------------------------
 
-    def _state_reads(self, space: str = "memory") -> tuple[list[ca.SX], list[tuple[tuple[Place, int], ...]]]:
-        symbols = [ca.SX(state.symbol) for state in self.plant.states]
-        places: list[Targets] = [
-            ((Place(space, state.signal.name), state.signal.size),)  # type: ignore[arg-type]
-            for state in self.plant.states
-        ]
-        return symbols, places
-
-    def _param_reads(self) -> tuple[list[ca.SX], list[Targets]]:
-        pairs = [(symbol.signal, ca.SX(symbol)) for symbol in self.plant.parameters] + self.noise_symbols
-        return [symbol for _, symbol in pairs], [((Place("param", signal.name), signal.size),) for signal, _ in pairs]
-
-    def _input_reads(self, symbols: tuple[Symbol, ...]) -> tuple[list[ca.SX], list[Targets]]:
-        return (
-            [ca.SX(symbol) for symbol in symbols],
-            [((Place("in", symbol.signal.name), symbol.signal.size),) for symbol in symbols],
-        )
-
-    def _evaluate(
-        self,
-        name: str,
-        reads: Sequence[tuple[Sequence[ca.SX], Sequence[Any]]],
-        outputs: Sequence[tuple[ca.SX, Targets, tuple[str, ...]]],
-        comment: list[str],
-        origins: Sequence[Sequence[Origin]] = (),
-    ) -> Evaluate:
-        arguments = [symbol for symbols, _ in reads for symbol in symbols]
-        places = [place for _, group in reads for place in group]
-        function = ca.Function(
-            f"{self.block.name}_{name}", arguments, [ca.densify(value) for value, _, _ in outputs], {"allow_free": True}
-        )
-        if function.get_free():
-            raise ModelError(f"{self.plant.name}: {name} uses {function.get_free()}, which it does not take")
-        return Evaluate(
-            function,
-            tuple(places),
-            tuple(targets for _, targets, _ in outputs),
-            tuple(names for _, _, names in outputs),
-            tuple(comment),
-            tuple(tuple(group) for group in origins),
-        )
-
-    def _next_states(self) -> tuple[Targets, tuple[str, ...]]:
-        targets = tuple((Place("next", state.signal.name), state.signal.size) for state in self.plant.states)
-        names = tuple(
-            f"next_{state.signal.name}" + (f"_{i}" if state.signal.size > 1 else "")
-            for state in self.plant.states
-            for i in range(state.signal.size)
-        )
-        return targets, names
-
-    def _judge(self) -> Refuse:
-        return Refuse(Status.OVERFLOW, self.block.judge_memory([state.signal.name for state in self.plant.states]))
-
     def _init(self) -> Entry:
         plant = self.plant
         body: list[Statement] = []
@@ -675,7 +554,7 @@ class _Builder:
         body += self.form.hold()
         if plant.has_attitude:
             body.append(
-                self._judge()
+                self.judge()
             )  # scaling to unit length keeps an attitude in range; what is stored is judged all the same
         doc = "Start (or start again) from the initial estimate in the parameters; every parameter is checked here."
         return Entry("init", (), (), tuple(body), doc, checks_params=True)
@@ -697,14 +576,8 @@ class _Builder:
         q_pattern, q_values = _upper(Q)
         f_names = tuple(f"f_{i}_{j}" for i, j in f_pattern)
         q_names = tuple(f"q_{i}_{j}" for i, j in q_pattern)
-        targets, names = self._next_states()
-        dt = [] if plant.dt_symbol is None or isinstance(plant.dt, float) else [plant.dt_symbol]
-        reads: list[tuple[Sequence[ca.SX], Sequence[Any]]] = [
-            self._state_reads(),
-            self._input_reads(tuple(plant.inputs)),
-            self._param_reads(),
-            (dt, [((Place("in", "dt"), 1),)] if dt else []),
-        ]
+        targets, names = self.next_states()
+        reads = self.step_reads()
         f_place, q_place = Place("local", "f"), Place("local", "q")
         outputs = [
             (following, targets, names),
@@ -716,7 +589,7 @@ class _Builder:
         if made is not None and made.substeps > 1:
             how += f" in {made.substeps} substeps"
         body: list[Statement] = [
-            self._evaluate(
+            self.evaluate(
                 "predict",
                 reads,
                 outputs,
@@ -725,15 +598,10 @@ class _Builder:
             ),
             *self.form.propagate(f_place, f_pattern, q_place, q_pattern, f_names, q_names),
             *self.form.hold(),
-            self._judge(),
+            self.judge(),
         ]
-        inputs = [symbol.signal for symbol in plant.inputs]
-        if dt:
-            assert isinstance(plant.dt, tuple)
-            low, high = plant.dt
-            inputs.append(Signal("dt", 1, "s", (low,), (high,), "time since the last predict"))
         doc = "Move the estimate one step ahead."
-        return Entry("predict", tuple(inputs), (), tuple(body), doc)
+        return Entry("predict", tuple(self.step_inputs()), (), tuple(body), doc)
 
     def _update(self, made: _Measurement) -> Entry:
         sensor, n = made.sensor, self.n
@@ -746,10 +614,10 @@ class _Builder:
         e_names = tuple(f"residual_{i}" for i in range(m)) if m > 1 else ("residual",)
         residual, h, r = Place("local", "residual"), Place("local", "h"), Place("local", "r")
         reads: list[tuple[Sequence[ca.SX], Sequence[Any]]] = [
-            self._state_reads(),
+            self.state_reads(),
             ([ca.SX(sensor.measurement)], [((Place("in", name), m),)]),
-            self._input_reads(made.inputs),
-            self._param_reads(),
+            self.input_reads(made.inputs),
+            self.param_reads(),
         ]
         outputs = [
             (made.residual, ((residual, m),), e_names),
@@ -771,7 +639,7 @@ class _Builder:
         ]
         rows = Rows(m, residual, h, h_pattern, r, (False,) * m, h_names, r_names, e_names)
         body: list[Statement] = [
-            self._evaluate(
+            self.evaluate(
                 f"measure_{name}", reads, outputs, comment, self._measure_origins(sensor, comment, h_pattern, r_pattern)
             ),
             self.form.innovation_variance(rows, r_pattern, r_names),
@@ -813,7 +681,7 @@ class _Builder:
                     *self._correct(name),
                     Assign(Place("next", f"rejected_{name}"), 0.0, 1),
                     *self.form.hold(),
-                    self._judge(),
+                    self.judge(),
                 ),
                 (Restore(), CountUp(Place("next", f"rejected_{name}")), Raise(Status.GATED)),
                 "accepted?",
@@ -842,7 +710,7 @@ class _Builder:
             tuple(body),
             f"Correct the estimate with one reading of {name}.",
             hidden=((gate_signal, Place("param", f"gate_{name}")),),
-            sources=_known(sensor.signal.source),
+            sources=known_sources(sensor.signal.source),
         )
 
     def _predict_origins(self, f_pattern: Pattern, q_pattern: Pattern) -> list[list[Origin]]:
@@ -852,14 +720,14 @@ class _Builder:
         following: list[Origin] = []
         rows: list[Origin] = []
         for state in plant.states:
-            said = _known(plant.dynamics_sources.get(state.signal.name, ""))
+            said = known_sources(plant.dynamics_sources.get(state.signal.name, ""))
             own = [Origin("dynamics", text, said) for text in equations[state.error_at]]
             rows += [Origin("derivative", f"row of F = dx/dx: {text}", said) for text in equations[state.error_at]]
             # a quaternion has four elements and three equations
             following += [Origin("dynamics", "; ".join(equations[state.error_at]), said)] * 4 if state.attitude else own
         names = [noise.signal.name for noise in plant.process_noises]
         names += [f"step noise of {name}" for name in plant.step_variances]
-        said = _known(*[noise.signal.source for noise in plant.process_noises])
+        said = known_sources(*[noise.signal.source for noise in plant.process_noises])
         spread_of = Origin("noise", f"Q over one step: {', '.join(names) or 'none'}", said)
         return [following, [rows[i] for i, _ in f_pattern], [spread_of] * len(q_pattern)]
 
@@ -867,8 +735,10 @@ class _Builder:
         self, sensor: Sensor, equations: list[str], h_pattern: Pattern, r_pattern: Pattern
     ) -> list[list[Origin]]:
         """Return what residual, H and R of a sensor come from."""
-        said = _known(sensor.signal.source)
-        noises = _known(sensor.signal.source, *[noise.signal.source for noise in self.plant.sensor_noises(sensor)])
+        said = known_sources(sensor.signal.source)
+        noises = known_sources(
+            sensor.signal.source, *[noise.signal.source for noise in self.plant.sensor_noises(sensor)]
+        )
         return [
             [Origin("sensor", text, said) for text in equations],
             [Origin("derivative", f"row of H = dh/dx: {equations[i]}", said) for i, _ in h_pattern],
@@ -879,8 +749,8 @@ class _Builder:
         """Apply the correction d to the state, and turn P into the corrected body frame of an attitude."""
         plant = self.plant
         d = ca.SX.sym("d", self.n)
-        targets, names = self._next_states()
-        symbols, places = self._state_reads()
+        targets, names = self.next_states()
+        symbols, places = self.state_reads()
         moved = plant.wrapped(plant.retract(plant.x, d))
         body: list[Statement] = []
         gains = []
@@ -900,7 +770,7 @@ class _Builder:
             (symbols, places),
             ([d], [((Place("local", "delta"), self.n),)]),
         ]
-        body.append(self._evaluate(f"correct_{sensor}", reads, outputs, comment))
+        body.append(self.evaluate(f"correct_{sensor}", reads, outputs, comment))
         if plant.has_attitude:
             body.append(self.form.reset(reset, pattern, g_names))
         return body
@@ -971,7 +841,10 @@ class _Builder:
         ]
         block.entries = {entry.name: entry for entry in entries}
         block.equations = plant_equations(plant)
-        block.notes = self._notes()
+        block.notes = self.notes()
+        if any(noise.is_density for noise in plant.process_noises):
+            block.notes.append("Noise densities are integrated over the step.")
+        block.notes.append(self.form.note)
         block.source_hash = plant.fingerprint()
         block.float_bound = self.options.float_bound
         block.check()
@@ -981,107 +854,16 @@ class _Builder:
             + [(sensor.signal.name, f"the sensor {sensor.signal.name!r}") for sensor in plant.sensors],
             block.name,
         )
-        model = self._textbook_model(measurements)
+        model = self.textbook_model([(item.sensor, item.inputs) for item in measurements], self.floor, self.ceiling)
         block.oracle = self.form.oracle(model)
         block.scenario = self._scenario(model)
         block.derivative_checks = self._derivative_checks(model, block)
         return block
 
-    def _notes(self) -> list[str]:
-        made = self.plant.discretisation
-        lines = []
-        if self.plant.constants:
-            named = [
-                f"{c.signal.name} = {', '.join(number_text(item) for item in c.signal.default or ())}"
-                + (f" {c.signal.unit}" if c.signal.unit else "")
-                for c in self.plant.constants
-            ]
-            lines.append(f"Constants: {'; '.join(named)}.")
-        if isinstance(self.plant.dt, float):
-            lines.append(f"dt = {number_text(self.plant.dt)} s.")
-        if made is not None:
-            lines.append(
-                f"Discretised by {made.method}" + (f" in {made.substeps} substeps." if made.substeps > 1 else ".")
-            )
-        if any(noise.is_density for noise in self.plant.process_noises):
-            lines.append("Noise densities are integrated over the step.")
-        lines.append(self.form.note)
-        return lines
-
     # -- independence -------------------------------------------------------------------------------------------------
 
-    def _textbook_model(self, measurements: list[_Measurement]) -> textbook.Model:
-        """Lower f and h, never a derivative of ours, to NumPy callables."""
-        plant = self.plant
-        made = plant.discretisation
-        source = made.continuous if made else plant
-        x, u, p = plant.x, plant.u, plant.p
-        process = ca.vertcat(ca.SX(0, 1), *[noise.symbol for noise in plant.process_noises])
-        rates = plant.folded(source.dynamics_expression())
-        rest = [noise.symbol for noise in plant.noises if not ca.depends_on(process, noise.symbol)]
-        if rest:
-            rates = ca.substitute(rates, ca.vertcat(*rest), ca.DM.zeros(ca.vertcat(*rest).numel()))
-        dynamics = numpy_callable(ca.Function("dynamics", [x, u, p, process], [ca.densify(rates)]))
-        sensors = []
-        for item in measurements:
-            sensor = item.sensor
-            noises = plant.sensor_noises(sensor)
-            v = ca.vertcat(ca.SX(0, 1), *[noise.symbol for noise in noises])
-            z = ca.SX(sensor.measurement)
-            h = plant.folded(sensor.expression)
-            extra = sensor.variance_expression
-            extra = ca.SX(sensor.signal.size, sensor.signal.size) if extra is None else plant.folded(extra)
-            sensors.append(
-                textbook.SensorModel(
-                    name=sensor.signal.name,
-                    size=sensor.signal.size,
-                    angle=sensor.signal.angle,
-                    low=np.array(sensor.signal.low),
-                    high=np.array(sensor.signal.high),
-                    inputs=tuple(symbol.signal.name for symbol in item.inputs),
-                    measure=numpy_callable(ca.Function("measure", [x, u, p, v], [ca.densify(h)])),
-                    noises=tuple(_noise_description(noise) for noise in noises),
-                    variance=f"variance_{sensor.signal.name}" if sensor.strength is not None else "",
-                    full=sensor.full,
-                    extra_variance=numpy_callable(
-                        ca.Function("extra", [x, z, u, p], [ca.densify(plant.without_noise(extra))])
-                    ),
-                )
-            )
-        return textbook.Model(
-            states=tuple(
-                textbook.StateModel(
-                    state.signal.name,
-                    state.signal.size,
-                    "attitude" if state.attitude else "angle" if state.signal.angle else "plain",
-                    np.array(state.signal.low),
-                    np.array(state.signal.high),
-                )
-                for state in plant.states
-            ),
-            inputs=tuple(
-                textbook.InputModel(s.signal.name, s.signal.size, np.array(s.signal.low), np.array(s.signal.high))
-                for s in plant.inputs
-            ),
-            params=tuple(
-                textbook.InputModel(s.name, s.size, np.array(s.low), np.array(s.high))
-                for s in self.block.param_signals
-                if s.kind is Kind.REAL
-            ),
-            plant_params=tuple(symbol.signal.name for symbol in plant.parameters),
-            dynamics=dynamics,
-            method=made.method if made else "none",
-            substeps=made.substeps if made else 1,
-            dt=plant.dt if plant.dt is not None else 1.0,
-            noises=tuple(_noise_description(noise) for noise in plant.process_noises),
-            step_variances=tuple(plant.step_variances),
-            sensors=tuple(sensors),
-            floor=np.array(self.floor),
-            ceiling=np.array(self.ceiling),
-        )
-
     def _scenario(self, model: textbook.Model) -> Scenario:
-        x0, u0 = self._nominal()
+        x0, u0 = self.nominal()
         variances = np.array(
             self._per_error(self.options.initial_variance, "initial_variance", LOWEST_VARIANCE, HIGHEST_VARIANCE)
         )
@@ -1149,42 +931,6 @@ def sigma_of(states: list[State], form: Conventional, memory: Mapping[str, Any])
         answer[state.signal.name] = np.full(4, 0.5 * float(np.max(own))) if state.attitude else own
     answer[form.field] = form.sizes(memory, sigma)
     return answer
-
-
-def dynamics_equations(plant: Plant) -> list[str]:
-    """Return the dynamics as text, one equation a line."""
-    source = plant.discretisation.continuous if plant.discretisation else plant
-    texts = equation_text(source.dynamics_expression(fold=False), plant.symbol_names())
-    mark = "+" if source.is_discrete else "'"
-    lines = []
-    for state in plant.states:
-        size = state.error_at.stop - state.error_at.start
-        for i in range(size):
-            name = state.signal.name if size == 1 else f"{state.signal.name}[{i}]"
-            left = f"rate of {name}" if state.attitude else f"{name}{mark}"
-            lines.append(f"{left} = {texts[state.error_at.start + i]}")
-    return lines
-
-
-def plant_equations(plant: Plant) -> list[str]:
-    """Return dynamics and sensors as text, one equation a line, for the header."""
-    lines = dynamics_equations(plant)
-    for sensor in plant.sensors:
-        size = sensor.signal.size
-        for i, text in enumerate(equation_text(sensor.expression, plant.symbol_names())):
-            noise = " + noise" if sensor.strength is not None or sensor.variance_expression is not None else ""
-            lines.append(f"{sensor.signal.name}{'' if size == 1 else f'[{i}]'} = {text}{noise}")
-    return lines
-
-
-def _known(*sources: str) -> tuple[str, ...]:
-    """Return the lines that are known, each once."""
-    return tuple(dict.fromkeys(item for item in sources if item))
-
-
-def _noise_description(noise: Noise) -> textbook.NoiseModel:
-    kind = "density" if noise.is_density else "variance"
-    return textbook.NoiseModel(f"{kind}_{noise.signal.name}", noise.signal.size, noise.is_density, noise.full)
 
 
 def _definite_or_refuse(place: Place, size: int, name: str) -> list[Statement]:

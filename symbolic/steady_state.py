@@ -13,9 +13,10 @@ from scipy.linalg import solve_discrete_are
 
 from ..reference.steady_state import SteadyStateOracle
 from .block import Block, Design, Scenario
+from .derivation import dynamics_equations, plant_equations
 from .discretisation import process_covariance, transition
 from .errors import ModelError
-from .estimators import dynamics_equations, is_linear, plant_equations
+from .estimators import is_linear
 from .expressions import numpy_callable
 from .plant import Plant, wrap
 from .program import Assign, Attempt, Call, Element, Entry, Evaluate, IsSet, Place, Raise, Refuse, Statement, When
