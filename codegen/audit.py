@@ -77,7 +77,13 @@ class AuditResult:
                 name: {
                     "passed": all(check.passed for check in found.checks),
                     "checks": [
-                        {"name": check.name, "passed": check.passed, "calls": check.calls, "note": check.note}
+                        {
+                            "name": check.name,
+                            "verdict": check.verdict,
+                            "passed": check.passed,
+                            "calls": check.calls,
+                            "note": check.remark,
+                        }
                         for check in found.checks
                     ],
                     **found.facts,

@@ -726,7 +726,7 @@ class _Lockstep:
         names = list(self.pairs.values())
         if self.views.reference is None:
             names.append(
-                CheckResult("independent reference", True, note="no independent reference: the block brings no oracle")
+                CheckResult("independent reference", True, not_judged="the block brings no independent reference")
             )
         return names
 

@@ -1,16 +1,21 @@
-"""Figures of a report as SVG inside the page: the same text for the same numbers, colours left to the page's style."""
+"""Figures of a report as SVG inside the page: the same text for the same numbers, colours left to the page's style.
+
+Matplotlib takes a second to be imported, and most commands draw nothing: it is imported by the first figure.
+"""
 
 from __future__ import annotations
 
 import io
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any
+from contextlib import AbstractContextManager
+from typing import TYPE_CHECKING, Any
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 INK, RULE, MUTED = "#000001", "#000002", "#000003"
 SERIES = ("#0000a1", "#0000a2", "#0000a3", "#0000a4", "#0000a5", "#0000a6")
@@ -57,7 +62,7 @@ def svg_of(figure: Figure, name: str, title: str, description: str) -> str:
         What it is, and what it shows, for those who do not see it.
     """
     stream = io.StringIO()
-    with mpl.rc_context(_STYLE | {"svg.hashsalt": name}):
+    with _styled({"svg.hashsalt": name}):
         figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
     text = stream.getvalue()
     text = text[text.index("<svg") :]
@@ -87,7 +92,16 @@ def _escaped(text: str) -> str:
     return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 
 
+def _styled(more: Mapping[str, Any] | None = None) -> AbstractContextManager[None]:
+    """Return a context in which Matplotlib draws as the page has it."""
+    import matplotlib as mpl
+
+    return mpl.rc_context(_STYLE | dict(more or {}))
+
+
 def _figure(height: float) -> Figure:
+    from matplotlib.figure import Figure
+
     return Figure(figsize=(_WIDTH, height), layout="constrained")
 
 
@@ -110,7 +124,7 @@ def _bars(axes: Axes, labels: Sequence[str], parts: Mapping[str, Sequence[float]
 
 def operations(counts: Mapping[str, Mapping[str, int]]) -> Figure:
     """Draw operations by kind for each entry."""
-    with mpl.rc_context(_STYLE):
+    with _styled():
         entries = [name for name, row in counts.items() if sum(row.values())]
         figure = _figure(0.8 + 0.28 * len(entries))
         axes = figure.subplots()
@@ -125,9 +139,10 @@ def operations(counts: Mapping[str, Mapping[str, int]]) -> Figure:
 
 
 def grouped(rows: Mapping[str, Mapping[str, float]], bounds: Mapping[str, Mapping[str, float]], unit: str) -> Figure:
-    """Draw a number for each entry on each target, and a bound as a tick where there is one."""
-    with mpl.rc_context(_STYLE):
-        entries = list(dict.fromkeys(entry for row in rows.values() for entry in row))
+    """Draw a number for each entry on each target, and a bound as a tick where there is one; either may be missing."""
+    with _styled():
+        given = [*rows.values(), *bounds.values()]
+        entries = list(dict.fromkeys(entry for row in given for entry in row))
         figure = _figure(0.8 + len(entries) * (0.16 + 0.15 * len(rows)))
         axes = figure.subplots()
         step = 0.8 / max(1, len(rows))
@@ -135,18 +150,22 @@ def grouped(rows: Mapping[str, Mapping[str, float]], bounds: Mapping[str, Mappin
             at = np.arange(len(entries)) - 0.4 + step * (k + 0.5)
             values = [row.get(entry, 0) for entry in entries]
             axes.barh(at, values, height=0.85 * step, color=SERIES[k % len(SERIES)], label=target)
-            own = [(bounds.get(target, {}).get(entry), y) for entry, y in zip(entries, at, strict=True)]
-            known = [(value, y) for value, y in own if value is not None]
+            limits = bounds.get(target, {})
+            known = [(limits[entry], y) for entry, y in zip(entries, at, strict=True) if entry in limits]
             if known:
                 axes.scatter([v for v, _ in known], [y for _, y in known], marker="|", s=40, color=INK, zorder=3)
-            for value, y in zip(values, at, strict=True):
-                axes.annotate(f"{value:,.0f}", (value, y), xytext=(4, 0), textcoords="offset points", va="center")
+            for entry, y in zip(entries, at, strict=True):
+                words = [f"{row[entry]:,.0f}"] if entry in row else []
+                words += [f"\N{LESS-THAN OR EQUAL TO} {limits[entry]:,.0f}"] if entry in limits else []
+                far = max(row.get(entry, 0), limits.get(entry, 0))
+                text = ", ".join(words)
+                axes.annotate(text, (far, y), xytext=(5, 0), textcoords="offset points", va="center", fontsize=6.5)
         if any(bounds.values()):
             axes.scatter([], [], marker="|", s=40, color=INK, label="bound")
         axes.set_yticks(np.arange(len(entries)), entries)
         axes.invert_yaxis()
         axes.set_xlabel(unit)
-        axes.margins(x=0.12)
+        axes.margins(x=0.2)
         axes.tick_params(length=0)
         axes.grid(axis="x")
         figure.legend(loc="outside upper left", ncols=6, handlelength=1.0, columnspacing=1.2)
@@ -155,7 +174,7 @@ def grouped(rows: Mapping[str, Mapping[str, float]], bounds: Mapping[str, Mappin
 
 def errors(checks: Sequence[Mapping[str, Any]]) -> Figure:
     """Draw the worst difference of each check beside its limit, on a logarithmic scale."""
-    with mpl.rc_context(_STYLE):
+    with _styled():
         figure = _figure(0.7 + 0.24 * len(checks))
         axes = figure.subplots()
         at = np.arange(len(checks))
@@ -177,7 +196,7 @@ def errors(checks: Sequence[Mapping[str, Any]]) -> Figure:
 
 def per_call(differences: Mapping[str, Sequence[float]], limit: float) -> Figure:
     """Draw the largest difference of each call along the nominal trace."""
-    with mpl.rc_context(_STYLE):
+    with _styled():
         figure = _figure(2.1)
         axes = figure.subplots()
         for k, (name, values) in enumerate(differences.items()):
@@ -197,7 +216,7 @@ def per_call(differences: Mapping[str, Sequence[float]], limit: float) -> Figure
 
 def statuses(counts: Mapping[str, int]) -> Figure:
     """Draw how often each status was returned."""
-    with mpl.rc_context(_STYLE):
+    with _styled():
         rows = sorted(counts.items(), key=lambda row: (-row[1], row[0]))
         figure = _figure(0.5 + 0.22 * len(rows))
         axes = figure.subplots()
@@ -207,7 +226,7 @@ def statuses(counts: Mapping[str, int]) -> Figure:
 
 def memory(fields: Mapping[str, tuple[Any, Any | None, str]]) -> Figure:
     """Draw fields of the memory over the nominal trace, each with a band of three sigma where sigma is known."""
-    with mpl.rc_context(_STYLE):
+    with _styled():
         columns = 2 if len(fields) > 1 else 1
         rows = (len(fields) + columns - 1) // columns
         figure = _figure(0.3 + 1.25 * rows)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -30,7 +32,15 @@ class Mismatch:
 
 @dataclass
 class CheckResult:
-    """One named check: what was compared, how far apart it was, whether that is accepted."""
+    """One named check: what was compared, how far apart it was, whether that is accepted.
+
+    Attributes
+    ----------
+    passed : bool
+        False where something wrong was found; such a check fails an export.
+    not_judged : str
+        Why the check could not judge anything, where it could not: then it has neither passed nor failed.
+    """
 
     name: str
     passed: bool
@@ -41,20 +51,43 @@ class CheckResult:
     ill_conditioned: int = 0
     mismatch: Mismatch | None = None
     note: str = ""
+    not_judged: str = ""
+
+    @property
+    def verdict(self) -> str:
+        """Either ``passed``, ``failed``, or ``not judged``."""
+        return "failed" if not self.passed else "not judged" if self.not_judged else "passed"
+
+    @property
+    def remark(self) -> str:
+        """What is to be said beside the verdict: why nothing was judged, and the note."""
+        reason = f"not judged: {self.not_judged}" if self.verdict == "not judged" else ""
+        return "; ".join(item for item in (reason, self.note) if item)
 
     def as_dict(self) -> dict[str, Any]:
-        """Return it for JSON."""
+        """Return it for JSON; ``passed`` is null where nothing was judged."""
         return {
             "name": self.name,
-            "passed": self.passed,
+            "verdict": self.verdict,
+            "passed": None if self.verdict == "not judged" else self.passed,
             "worst": float(f"{self.worst:.3g}") if math.isfinite(self.worst) else str(self.worst),
             "limit": self.limit,
             "calls": self.calls,
             "at_switches": self.at_switches,
             "ill_conditioned": self.ill_conditioned,
             "mismatch": None if self.mismatch is None else str(self.mismatch),
-            "note": self.note,
+            "note": self.remark,
         }
+
+
+def verdict_text(verdicts: Iterable[str]) -> str:
+    """Return what a summary says of checks, given the verdict of each."""
+    counted = Counter(verdicts)
+    if counted["failed"]:
+        return f"{counted['failed']} of {counted.total()} checks failed"
+    if counted["not judged"]:
+        return f"no check failed, {counted['not judged']} of {counted.total()} could not judge"
+    return "all checks passed"
 
 
 @dataclass

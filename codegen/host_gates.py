@@ -60,8 +60,8 @@ def equal_bits_gate(
         result.passed = not judged
         result.mismatch = difference if judged else None
         result.note = str(difference)
-    if not judged and result.note != "bit for bit":
-        result.note = f"reported, not judged: {result.note}"
+    if not judged and difference is not None:
+        result.note, result.not_judged = "", result.note
     return result
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from ..symbolic.block import Block
 from ..symbolic.signals import STATUS_TEXT, Kind, Status
 from . import figures
+from .costs import Cost, read
 from .crosscheck import Probe
 from .layout import fill, flatten
 from .views import InterpretView
@@ -66,11 +67,14 @@ def report_html(
         manifest=manifest,
         evidence=evidence,
         checks=checks,
-        failed=[item for item in checks if not item["passed"]],
+        failed=[item for item in checks if item["verdict"] == "failed"],
+        classes={"passed": "ok", "failed": "fail", "not judged": "open"},
+        unjudged=[item for item in checks if item["verdict"] == "not judged"],
         calls=sum(int(item["calls"]) for item in checks),
         notes=block.notes,
         entries=_entries(manifest),
         targets=_targets(evidence),
+        costs=_costs(evidence),
         figures=_figures(block, manifest, evidence, calls),
         coverage=evidence.get("coverage"),
         symbols=evidence.get("symbols"),
@@ -122,16 +126,34 @@ def _field(item: Mapping[str, Any]) -> str:
     return f"{item['name']}{size}" + (f" ({item['unit']})" if item.get("unit") else "")
 
 
-def _per_entry(value: Any, key: str = "") -> dict[str, float]:
-    """Return entry -> number of a fact that is given per entry, plainly or by kinds."""
-    if not isinstance(value, Mapping):
-        return {}
-    answer = {}
-    for entry, item in value.items():
-        found = item.get(key) if isinstance(item, Mapping) else (item if key in ("", "most", "painted") else None)
-        if isinstance(found, (int, float)) and not isinstance(found, bool):
-            answer[str(entry)] = float(found)
-    return answer
+def _numbers(facts: Mapping[str, Any], quantity: str) -> tuple[dict[str, float], dict[str, float]]:
+    """Return, each by entry, what was seen on a target and its bounds, as far as these are numbers."""
+    costs = read(quantity, facts)
+    seen = {entry: float(cost.seen) for entry, cost in costs.items() if isinstance(cost.seen, int)}
+    bound = {entry: float(cost.bound) for entry, cost in costs.items() if isinstance(cost.bound, int)}
+    return seen, bound
+
+
+def _costs(evidence: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return one row for each entry on each target: instructions and stack, seen and bound."""
+    given = evidence.get("targets")
+    rows = []
+    for name, facts in (given if isinstance(given, Mapping) else {}).items():
+        if not isinstance(facts, Mapping):
+            continue
+        instructions, stack = read("instructions", facts), read("stack", facts)
+        for entry in instructions.keys() | stack.keys():
+            row: dict[str, Any] = {"target": name, "entry": entry}
+            for quantity, costs in (("instructions", instructions), ("stack", stack)):
+                cost = costs.get(entry, Cost("not measured", "not stated"))
+                row |= {quantity: cost.seen, f"{quantity}_bound": cost.bound}
+            rows.append(row)
+    order = list(evidence.get("targets") or {})
+    return sorted(rows, key=lambda row: (order.index(row["target"]), -_most(row), row["entry"]))
+
+
+def _most(row: Mapping[str, Any]) -> int:
+    return next((row[key] for key in ("instructions_bound", "instructions") if isinstance(row[key], int)), 0)
 
 
 def _targets(evidence: Mapping[str, Any]) -> list[dict[str, Any]]:
@@ -151,8 +173,7 @@ def _targets(evidence: Mapping[str, Any]) -> list[dict[str, Any]]:
         toolchain = facts.get("toolchain", {})
         label = toolchain.get("version", "") if isinstance(toolchain, Mapping) else str(toolchain)
         flags = toolchain.get("flags", facts.get("flags", ())) if isinstance(toolchain, Mapping) else ()
-        stack = _per_entry(facts.get("stack"), "painted") or _per_entry(facts.get("stack"), "bound")
-        notes = [str(facts[key]) for key in ("instructions", "stack") if isinstance(facts.get(key), str)]
+        painted, bound = _numbers(facts, "stack")
         run = facts.get("free_run", {})
         rows.append(
             {
@@ -161,9 +182,10 @@ def _targets(evidence: Mapping[str, Any]) -> list[dict[str, Any]]:
                 "toolchain": label,
                 "flags": flags if isinstance(flags, str) else " ".join(flags),
                 **{key: sizes.get(key) for key in ("text", "data", "bss")},
-                "stack": max(stack.values(), default=None),
+                "stack": max(painted.values(), default=None),
+                "stack_bound": max(bound.values()) if bound and len(bound) == len(read("stack", facts)) else None,
                 "equal": run.get("equal_to_host") if isinstance(run, Mapping) else None,
-                "note": "; ".join(notes),
+                "note": "",
             }
         )
     return rows
@@ -188,20 +210,18 @@ def _figures(
     given = evidence.get("targets")
     facts = {k: v for k, v in given.items() if isinstance(v, Mapping)} if isinstance(given, Mapping) else {}
     for key, unit, title in (
-        ("instructions", "instructions per call (never cycles)", "Instructions per call, the most seen on the traces"),
-        ("stack", "bytes, callees included", "Stack of each entry"),
+        (
+            "instructions",
+            "instructions per call (never cycles)",
+            "Instructions per call: the most seen on the traces, and a bound",
+        ),
+        ("stack", "bytes, callees included", "Stack of each entry: the most painted on the traces, and a bound"),
     ):
-        seen = {
-            name: _per_entry(row.get(key), "most" if key == "instructions" else "painted")
-            for name, row in facts.items()
-        }
-        bound = {name: _per_entry(row.get(key), "bound") for name, row in facts.items()}
-        if not any(seen.values()):
-            seen, bound = bound, {}
-        seen = {name: row for name, row in seen.items() if row}
-        if seen:
-            lines = [f"{name}: " + ", ".join(f"{e} {v:.0f}" for e, v in row.items()) for name, row in seen.items()]
-            add(key, figures.grouped(seen, bound, unit), title, "; ".join(lines) + ".")
+        both = {name: _numbers(row, key) for name, row in facts.items()}
+        both = {name: row for name, row in both.items() if any(row)}
+        if both:
+            seen, bound = ({name: row[k] for name, row in both.items()} for k in (0, 1))
+            add(key, figures.grouped(seen, bound, unit), title, _told(seen, bound))
     limited = [item for item in evidence["checks"] if item["limit"] and isinstance(item["worst"], (int, float))]
     if limited:
         worst = "; ".join(f"{item['name']}: {item['worst']:.1e} of {item['limit']:.0e}" for item in limited)
@@ -213,6 +233,21 @@ def _figures(
     if nominal:
         _trace_figures(block, evidence, nominal, add)
     return found
+
+
+def _told(seen: Mapping[str, Mapping[str, float]], bound: Mapping[str, Mapping[str, float]]) -> str:
+    """Return the numbers of a figure of costs in words."""
+    lines = []
+    for name, row in seen.items():
+        limits = bound[name]
+        entries = list(dict.fromkeys([*row, *limits]))
+        words = [
+            f"{entry} {f'{row[entry]:.0f}' if entry in row else 'not seen'}"
+            + (f" (bound {limits[entry]:.0f})" if entry in limits else " (no bound)")
+            for entry in entries
+        ]
+        lines.append(f"{name}: {', '.join(words)}")
+    return "; ".join(lines) + "."
 
 
 def _trace_figures(block: Block, evidence: Mapping[str, Any], nominal: list[Probe], add: Any) -> None:

@@ -181,7 +181,7 @@ class Toolchain:
     def flags(self) -> tuple[str, ...]:
         """Flags of every compilation for the target, but for contraction. Debug information changes no code."""
         if self.kind == "host":
-            return (*BASE_FLAGS, "-g")
+            return (*BASE_FLAGS, "-g", "-fno-math-errno")  # as on the targets: else sqrt is called to set errno
         if self.kind == "zig":
             unwanted = (
                 "-fno-asynchronous-unwind-tables",

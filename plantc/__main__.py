@@ -19,6 +19,8 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from . import models, parallel
 from .codegen.audit import AUDITS, AuditResult, audit_folder
 from .codegen.emit import generator_version
+from .codegen.exported import tool
+from .codegen.findings import CheckResult, verdict_text
 from .codegen.mathematics import CHOICES
 from .codegen.options import Options
 from .codegen.package import (
@@ -32,9 +34,10 @@ from .codegen.package import (
     with_design,
 )
 from .codegen.proof import prove
+from .codegen.rounding import Bound, bound_rounding
 from .codegen.style import Precision
 from .codegen.targets import TARGETS
-from .evidence import checks_text, evidence_text, export_json, sentence
+from .evidence import MARKS, checks_text, evidence_text, export_json, rounding_text, sentence
 from .models import UsageError
 from .symbolic import Block
 
@@ -282,9 +285,14 @@ def export_command(
         exports = _export_all(session, blocks, path, out, options, steps, redesign, fmu, not no_cache)
         result = {"blocks": [export_json(item) for item in exports]}
         folders = ", ".join(str(item.folder) for item in exports)
-        session.finish(result, f"exported, all checks passed: {folders}", GOOD)
+        session.finish(result, f"exported, {_verdict(result)}: {folders}", GOOD)
 
     session.run(body)
+
+
+def _verdict(result: dict[str, Any]) -> str:
+    """Return what is to be said of the checks of exported blocks."""
+    return verdict_text(check["verdict"] for block in result["blocks"] for check in block["checks"])
 
 
 def _finish_jobs(session: Session, outcomes: list[parallel.Outcome]) -> NoReturn:
@@ -301,7 +309,7 @@ def _finish_jobs(session: Session, outcomes: list[parallel.Outcome]) -> NoReturn
         rest = f"; {len(done['blocks'])} of {len(outcomes)} blocks were exported"
         session.finish({"error": text, **done}, f"{word}: {text}{rest}", worst)
     folders = ", ".join(item["folder"] for item in done["blocks"])
-    session.finish(done, f"exported, all checks passed: {folders}", GOOD)
+    session.finish(done, f"exported, {_verdict(done)}: {folders}", GOOD)
 
 
 def _options(
@@ -349,7 +357,10 @@ def _export_all(
     "--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace."
 )
 @click.option(
-    "--prove", "proved", is_flag=True, help="Also prove by Frama-C that no call takes the memory out of its ranges."
+    "--prove",
+    "proved",
+    is_flag=True,
+    help="Also prove by Frama-C that no call takes the memory out of its ranges, and bound rounding errors by Gappa.",
 )
 @_target
 @_common
@@ -382,10 +393,10 @@ def check_command(
             )
         found.check.results += design_residuals(block)
         if proved and not found.missing:
-            session.say(f"{block.name}: Frama-C, function by function; a filter of twelve states takes minutes")
-            found.check.results += prove(block, text_in(folder, manifest)).checks
+            found.check.results += _proved(session, block, folder, manifest)
         for line in checks_text(found.check.results):
             session.say(line)
+        bounds = _bounded(session, block, manifest) if proved and not found.missing else []
         for file in found.changed:
             session.say(f"  FAIL {folder / file} is not what the model gives now")
         for file in found.missing:
@@ -395,13 +406,35 @@ def check_command(
             "changed": found.changed,
             "missing": found.missing,
             "checks": [item.as_dict() for item in found.check.results],
+            **({"rounding": [item.as_dict() for item in bounds]} if proved else {}),
         }
         if found.passed:
-            session.finish(result, f"{folder}: as the model gives it, all checks passed", GOOD)
+            verdict = verdict_text(item.verdict for item in found.check.results)
+            session.finish(result, f"{folder}: as the model gives it, {verdict}", GOOD)
         what = "a check failed" if not found.check.passed else "not what the model gives now; export again"
         session.finish(result, f"failed: {folder}: {what}", CHECK_FAILED)
 
     session.run(body)
+
+
+def _proved(session: Session, block: Block, folder: Path, manifest: dict[str, Any]) -> list[CheckResult]:
+    """Prove, and return a check for each function; both tools are asked for first."""
+    for name, package in (("frama-c", "frama-c-base"), ("gappa", "gappa")):
+        tool(name, package)
+    session.say(f"{block.name}: Frama-C, function by function; a filter of twelve states takes minutes")
+    return prove(block, text_in(folder, manifest)).checks
+
+
+def _bounded(session: Session, block: Block, manifest: dict[str, Any]) -> list[Bound]:
+    """Bound what one call loses to rounding, and print it."""
+    if manifest.get("contract") == "on":
+        session.say("  rounding: no bounds, because fused operations are allowed; export with --contract off")
+        return []
+    precision = Precision(manifest["precision"])
+    bounds = bound_rounding(block, precision, mathematics=manifest.get("mathematics", "own"))
+    for line in rounding_text(bounds, precision):
+        session.say(line)
+    return bounds
 
 
 @main.command(name="audit")
@@ -452,9 +485,8 @@ def audit_text(found: AuditResult) -> list[str]:
     """Return what the audits of a folder found, for a terminal."""
     lines = []
     for check in found.checks:
-        mark = "ok  " if check.passed else "FAIL"
         calls = f"  {check.calls} calls" if check.calls else ""
-        lines.append(f"  {mark} {check.name}{calls}{f'  {check.note}' if check.note else ''}")
+        lines.append(f"  {MARKS[check.verdict]} {check.name}{calls}{f'  {check.remark}' if check.remark else ''}")
     for row in found.findings["misra"].facts["deviations"] if "misra" in found.findings else []:
         lines.append(f"       {row['file']}: rule {row['rule']}, {row['count']} times: {row['reason']}")
     lines += [f"  not run: {name}" for name in found.missing]

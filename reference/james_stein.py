@@ -271,7 +271,9 @@ class _Call:
         if not D2 <= LARGEST:
             raise Refused(Status.OVERFLOW)
         gamma = self.params[f"gamma_{sensor.name}"][0] if reading.modified else None
-        s = weight(np.asarray(D2), float(self.params[f"std_{sensor.name}"][0]), c, None if gamma is None else float(gamma))
+        s = weight(
+            np.asarray(D2), float(self.params[f"std_{sensor.name}"][0]), c, None if gamma is None else float(gamma)
+        )
         after = self.judged(wrapped(self.model, retract(self.model, x, (s * total).astype(self.precision))))
         outputs = {"innovation": innovation, "distance_squared": np.array([D2]), "weight": np.array([s])}
         return Status.OK, after, {name: value.astype(self.precision) for name, value in outputs.items()}

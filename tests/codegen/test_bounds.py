@@ -1,15 +1,19 @@
 """Bounds against what the emulator counts and paints, against -fstack-usage, and against planted faults."""
 
 import re
+import subprocess
 from dataclasses import replace
 
 import pytest
 from plantc.codegen.bounds import Analysis, Unknown, source_loops
+from plantc.codegen.costs import Cost, within
 from plantc.codegen.crosscheck import make_probes, make_views
 from plantc.codegen.emit import emit
 from plantc.codegen.emulator import Call, TargetView
+from plantc.codegen.folder import write_files
 from plantc.codegen.objects import read_image
-from plantc.codegen.on_target import analysis_of, within
+from plantc.codegen.on_target import analysis_of
+from plantc.codegen.package import build_files
 from plantc.codegen.targets import TARGETS, find_toolchain, linked_library
 from plantc.examples.attitude_ekf import attitude_ekf
 from plantc.examples.pendulum import pendulum_ekf
@@ -118,14 +122,109 @@ def test_a_lower_loop_bound_is_caught(tmp_path, needs):
     seen = {name: view.most[name].instructions for name in view.most}
 
     def check(analysis):
-        rows = {name: (seen[name], analysis.instructions(f"quadrotor_kf_{name}")) for name in seen}
-        return within("instructions", view, rows)
+        rows = {name: Cost.of(seen[name], analysis.instructions(f"quadrotor_kf_{name}")) for name in seen}
+        return within("instructions", "cortex-m4", rows)
 
-    assert check(honest).passed
+    assert check(honest).verdict == "passed"
     lower = [replace(loop, trips=0) for loop in honest.loops]
-    planted = check(Analysis(honest.image, lower, honest.file, honest.largest))
-    assert not planted.passed
-    assert re.search(r"\w+: \d+ seen, the bound is \d+", planted.note)
+    for planted in (
+        Analysis(honest.image, lower, honest.file, honest.largest),
+        NeverOn(honest.image, honest.loops, honest.file, honest.largest),
+    ):
+        found = check(planted)
+        assert found.verdict == "failed"
+        assert re.search(r"\w+: \d+ seen, the bound is \d+", found.note)
+
+
+class NeverOn(Analysis):
+    """Follows every conditional jump to its target and never past it: half of the edges are gone."""
+
+    def _follow(self, start, item, *rest):
+        after = super()._follow(start, item, *rest)
+        return after[1:] if item.kind == "jump" and item.conditional and len(after) > 1 else after
+
+
+THUMB = """
+    .syntax unified
+    .thumb
+    .text
+    .global early, popped, either, start
+    .type early, %function
+early:
+    cmp r0, #0
+    it eq
+    bxeq lr
+    movs r1, #1
+    movs r2, #2
+    movs r3, #3
+    bx lr
+    .size early, . - early
+    .type popped, %function
+popped:
+    push {r4, lr}
+    cmp r0, #0
+    it ne
+    popne {r4, pc}
+    sub sp, sp, #16
+    movs r1, #1
+    add sp, sp, #16
+    pop {r4, pc}
+    .size popped, . - popped
+    .type either, %function
+either:
+    cmp r0, #0
+    ite eq
+    moveq r0, #1
+    bxne lr
+    movs r1, #1
+    bx lr
+    .size either, . - either
+    .type start, %function
+start:
+    bx lr
+    .size start, . - start
+"""
+
+
+def test_a_conditional_return_in_an_it_block_may_go_on(tmp_path, needs):
+    """The long way is the one past the return; taken for an unconditional one, the bound would be too low."""
+    needs("arm-none-eabi-gcc")
+    toolchain = find_toolchain(TARGETS["cortex-m4"])
+    (tmp_path / "it.s").write_text(THUMB)
+    flags = [*TARGETS["cortex-m4"].flags, "-nostdlib", "-Wl,-e,start", "it.s", "-o", "it.elf"]
+    toolchain.compiler.run(flags, tmp_path)
+    analysis = Analysis(read_image(tmp_path / "it.elf"))
+    assert {name: analysis.instructions(name) for name in ("early", "popped", "either")} == {
+        "early": 7, "popped": 8, "either": 6,
+    }  # fmt: skip
+    assert analysis.stack("popped") == 8 + 16
+    assert [analysis.stack(name) for name in ("early", "either")] == [0, 0]
+
+
+@pytest.mark.slow
+def test_the_bound_of_the_host_is_not_below_what_callgrind_counts(tmp_path, needs):
+    """Each call of the shipped vectors, counted by itself; and the planted fault of a loop that never turns is seen."""
+    needs("gcc", "valgrind")
+    toolchain, text = find_toolchain(TARGETS["host"]), emit(quadrotor_kf, "float")
+    write_files(tmp_path, build_files(quadrotor_kf, "float"))
+    analysis = analysis_of(quadrotor_kf, text, toolchain.library_object(text, tmp_path))
+    toolchain.compiler.run(
+        [*toolchain.flags, "-I.", "test/test_vectors.c", "quadrotor_kf.o", "-o", "vectors", "-lm"], tmp_path
+    )
+    lower = Analysis(analysis.image, [replace(loop, trips=0) for loop in analysis.loops], analysis.file, 0)
+    caught = 0
+    for entry in ("predict", "update_pose", "inflate"):
+        name = f"quadrotor_kf_{entry}"
+        options = [f"--toggle-collect={name}", f"--dump-after={name}", f"--callgrind-out-file={entry}"]
+        subprocess.run(
+            ["valgrind", "--tool=callgrind", *options, "./vectors"], cwd=tmp_path, check=True, capture_output=True
+        )
+        found = [re.search(r"^totals: (\d+)", path.read_text(), re.MULTILINE) for path in tmp_path.glob(f"{entry}*")]
+        counts = [int(item[1]) for item in found if item]
+        assert len(counts) > 3
+        assert max(counts) <= analysis.instructions(name) < 10 * max(counts)
+        caught += max(counts) > lower.instructions(name)
+    assert caught > 0
 
 
 C = """

@@ -1,6 +1,8 @@
 """Figures: the same text for the same numbers, identifiers of their own, colours left to the page."""
 
 import re
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -35,3 +37,17 @@ def test_what_has_no_operations_is_left_out():
     assert "step" in svg
     assert "init" not in svg
     assert "negation" not in svg
+
+
+def test_a_bound_without_a_number_and_a_number_without_a_bound_are_drawn():
+    rows, bounds = {"host": {}, "m4": {"step": 10.0}}, {"host": {"step": 12345.0}, "m4": {}}
+    svg = figures.svg_of(figures.grouped(rows, bounds, "instructions"), "f", "t", "d")
+    assert "≤ 12,345" in svg
+    assert ">10<" in svg
+
+
+def test_a_command_that_draws_nothing_does_not_import_matplotlib():
+    """It takes longer than all else that the command line needs at its start."""
+    code = "import sys, plantc.__main__; print([name for name in ('matplotlib', 'mpmath') if name in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"

@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 from plantc.codegen import on_target
 from plantc.codegen.compiler import CompilerError
+from plantc.codegen.costs import read
 from plantc.codegen.crosscheck import CrossCheck, make_probes, make_views
 from plantc.codegen.emit import emit
 from plantc.codegen.emulator import TargetView
@@ -117,7 +118,8 @@ def test_a_last_bit_of_software_double_is_judged_by_tolerance(name, needs):
         assert lockstep.passed
         assert 0 < lockstep.worst < 1e-9
         assert "does not always round as IEEE 754 says" in lockstep.note
-        assert "does not always round as IEEE 754 says" in free.note
+        assert free.verdict == "not judged"
+        assert "does not always round as IEEE 754 says" in free.remark
     else:
         assert not lockstep.passed
         assert not free.passed
@@ -220,6 +222,31 @@ def test_the_evidence_of_a_target(needs):
     assert facts["object"]["data"] == facts["object"]["bss"] == 0
     assert facts["linked"]["text"] > facts["object"]["text"] > 1000
     assert facts["ram"]["needed"] > facts["stack"]["step"]
+    assert facts["instructions"]["step"] <= facts["instruction_bound"]["step"] < 10 * facts["instructions"]["step"]
+
+
+def test_the_evidence_of_the_host(needs):
+    """Nothing is counted there, so nothing is said to be; bounds are read from its machine code."""
+    needs("gcc")
+    _, check = checked(quadrotor_kf, "float", 5)
+    facts = measure_targets(quadrotor_kf, Options(Precision("float")), emit(quadrotor_kf, "float"), check).facts
+    host = facts["targets"]["host"]
+    json.dumps(host)
+    for quantity, word in (("instructions", "not counted: "), ("stack", "not painted: ")):
+        costs = read(quantity, host)
+        assert set(costs) == set(quadrotor_kf.entries)
+        assert all(str(cost.seen).startswith(word) for cost in costs.values())
+        assert costs["step"].bound > costs["predict"].bound > 100
+    assert read("stack", host)["step"].bound > 4 * 78  # it holds a candidate of the covariance
+
+
+def test_the_host_has_no_bound_from_a_compiler_whose_code_is_not_followed(needs, monkeypatch):
+    needs("clang")
+    monkeypatch.setenv("CC", "clang")
+    _, check = checked(pendulum_ekf, "float", 5)
+    facts = measure_targets(pendulum_ekf, Options(Precision("float")), emit(pendulum_ekf, "float"), check).facts
+    bound = read("instructions", facts["targets"]["host"])["step"].bound
+    assert re.match(r"unknown because of the compiler: only code of gcc is bounded, this is of .*clang", bound)
 
 
 @pytest.mark.parametrize(("what", "sizes"), [("flash", {"flash": 8192}), ("RAM", {"ram": 2048})])

@@ -6,6 +6,8 @@ import subprocess
 from html.parser import HTMLParser
 
 import pytest
+from plantc.codegen.costs import Cost, written
+from plantc.codegen.findings import CheckResult
 from plantc.codegen.package import export
 from plantc.codegen.report import report_html
 from plantc.examples.pendulum import pendulum_ekf
@@ -150,7 +152,7 @@ def test_it_degrades_where_the_evidence_is_poor_and_takes_new_keys(exported):
         "targets": {
             "cortex-m4": {
                 "toolchain": {"version": "some gcc", "flags": ["-O2"]}, "object": {"text": 100, "data": 0, "bss": 0},
-                "stack": {"step": {"painted": 200, "bound": 260}}, "instructions": {"step": {"most": 900, "bound": 1000}},
+                **written("stack", {"step": Cost(200, 260)}), **written("instructions", {"step": Cost(900, 1000)}),
             },
             "rv32": "not measured: install qemu",
         },
@@ -174,10 +176,63 @@ def test_it_degrades_where_the_evidence_is_poor_and_takes_new_keys(exported):
         assert text in page
 
 
+def rows_of(page, caption):
+    """The cells of the table with a caption that begins so."""
+    table = re.search(rf"<caption>{caption}.*?</table>", page, re.DOTALL).group()
+    return [
+        re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row, re.DOTALL)
+        for row in re.findall(r"<tr>.*?</tr>", table, re.DOTALL)
+    ]
+
+
+def test_the_bounds_of_the_committed_quadrotor_are_in_the_page(exported, checkout):
+    """What an export really wrote, so that writer and page cannot differ: table, figure, and its words."""
+    stored = json.loads((checkout / "generated_c/quadrotor_ekf/evidence.json").read_text())["targets"]
+    evidence = {**exported.evidence, "targets": stored}
+    page = report_html(pendulum_ekf, json.loads(exported.files["manifest.json"]), evidence, exported.check.calls)
+    facts = stored["cortex-m7"]
+    seen, bound = facts["instructions"]["step"], facts["instruction_bound"]["step"]
+    assert seen <= bound
+    rows = {(row[0], row[1]): row[2:] for row in rows_of(page, "Instructions")}
+    told = [f"{number:,}" for number in (seen, bound, facts["stack"]["step"], facts["stack_bound"]["step"])]
+    assert rows["cortex-m7", "<code>step</code>"] == told
+    assert f"step {seen} (bound {bound})" in page
+    assert f"{seen:,}, ≤ {bound:,}" in page
+    soft = stored["cortex-m4"]["instruction_bound"]["step"]
+    if isinstance(soft, str):
+        assert rows["cortex-m4", "<code>step</code>"][1] == soft
+    lost = {**facts, "instruction_bound": {}}
+    bare = report_html(
+        pendulum_ekf, json.loads(exported.files["manifest.json"]), {**evidence, "targets": {"cortex-m7": lost}}, []
+    )
+    assert f"step {seen} (no bound)" in bare
+
+
+def test_the_host_shows_its_bounds_and_that_nothing_was_counted(exported, page, needs):
+    needs("gcc")
+    host = exported.evidence["targets"]["host"]
+    row = next(row for row in rows_of(page, "Instructions") if row[:2] == ["host", "<code>step</code>"])
+    assert row[2].startswith("not counted: ")
+    assert row[3] == f"{host['instruction_bound']['step']:,}"
+    assert row[4].startswith("not painted: ")
+    assert row[5] == f"{host['stack_bound']['step']:,}"
+
+
+def test_a_check_that_judged_nothing_does_not_look_like_one_that_passed(exported, page):
+    assert 'class="open">not judged<' not in page
+    manifest = json.loads(exported.files["manifest.json"])
+    checks = [dict(item) for item in exported.evidence["checks"]]
+    checks[3] = CheckResult("stack within the bound", True, not_judged="no entry has a bound").as_dict()
+    told = report_html(pendulum_ekf, manifest, {**exported.evidence, "checks": checks}, exported.check.calls)
+    assert f"{len(checks) - 1} checks passed; 1 could not judge" in told
+    assert 'class="open">not judged<' in told
+    assert "not judged: no entry has a bound" in told
+
+
 def test_a_failed_check_is_the_first_thing_seen(exported):
     manifest = json.loads(exported.files["manifest.json"])
     checks = [dict(item) for item in exported.evidence["checks"]]
-    checks[2] |= {"passed": False, "mismatch": "step 3, <theta>: 1 against 2"}
+    checks[2] |= {"verdict": "failed", "passed": False, "mismatch": "step 3, <theta>: 1 against 2"}
     page = report_html(pendulum_ekf, manifest, {**exported.evidence, "checks": checks}, exported.check.calls)
     assert f"1 of {len(checks)} checks failed" in page
     assert "step 3, &lt;theta&gt;: 1 against 2" in page

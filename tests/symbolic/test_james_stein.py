@@ -310,7 +310,9 @@ def test_a_fault_in_the_weight_is_caught():
     block = still(C1)
     assert cross_check(block, steps=40).passed
     function = block.entries["update_y"].body[0].function
-    constant = next(line for line in emit(block, "double").source.splitlines() if "1.1342801" in line and "/*" not in line)
+    constant = next(
+        line for line in emit(block, "double").source.splitlines() if "1.1342801" in line and "/*" not in line
+    )
     check = cross_check(
         block, views=with_c(block, lambda source: source.replace(constant, constant.replace("1.1342801", "1.1342811"))),
         steps=40,
