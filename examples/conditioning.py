@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import casadi as ca
-import mpmath
+import mpmath  # type: ignore[import-untyped]
 import numpy as np
 from plantc.codegen import NativeView, find_compiler
 from plantc.codegen.compiler import BASE_FLAGS, contraction_flag
@@ -227,7 +227,8 @@ def textbook(case: Case, trace: list[tuple[Any, Any]]) -> Iterator[tuple[Any, An
         flags = [*BASE_FLAGS, contraction_flag(False), "-fPIC", "-shared"]
         find_compiler().run([*flags, "textbook.c", "-o", "textbook.so", "-lm"], Path(name))
         library = ctypes.CDLL(str(Path(name) / "textbook.so"))
-        x, own = np.float32(CENTRE), np.float32(case.p0 * np.eye(12))
+        x: Any = np.float32(CENTRE)
+        own: Any = np.float32(case.p0 * np.eye(12))
         work, whole = np.zeros(max(1, step.sz_w()), dtype=np.float32), np.zeros(max(1, step.sz_iw()), dtype=np.int64)
         for u, reading in trace:
             after, spread = np.zeros(12, dtype=np.float32), np.zeros((12, 12), dtype=np.float32)
