@@ -19,7 +19,8 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from . import models, parallel
 from .codegen.audit import AUDITS, AuditResult, audit_folder
 from .codegen.emit import generator_version
-from .codegen.findings import verdict_text
+from .codegen.exported import tool
+from .codegen.findings import CheckResult, verdict_text
 from .codegen.mathematics import CHOICES
 from .codegen.options import Options
 from .codegen.package import (
@@ -33,9 +34,10 @@ from .codegen.package import (
     with_design,
 )
 from .codegen.proof import prove
+from .codegen.rounding import Bound, bound_rounding
 from .codegen.style import Precision
 from .codegen.targets import TARGETS
-from .evidence import MARKS, checks_text, evidence_text, export_json, sentence
+from .evidence import MARKS, checks_text, evidence_text, export_json, rounding_text, sentence
 from .models import UsageError
 from .symbolic import Block
 
@@ -358,7 +360,10 @@ def _export_all(
     "--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace."
 )
 @click.option(
-    "--prove", "proved", is_flag=True, help="Also prove by Frama-C that no call takes the memory out of its ranges."
+    "--prove",
+    "proved",
+    is_flag=True,
+    help="Also prove by Frama-C that no call takes the memory out of its ranges, and bound rounding errors by Gappa.",
 )
 @_target
 @_common
@@ -391,10 +396,10 @@ def check_command(
             )
         found.check.results += design_residuals(block)
         if proved and not found.missing:
-            session.say(f"{block.name}: Frama-C, function by function; a filter of twelve states takes minutes")
-            found.check.results += prove(block, text_in(folder, manifest)).checks
+            found.check.results += _proved(session, block, folder, manifest)
         for line in checks_text(found.check.results):
             session.say(line)
+        bounds = _bounded(session, block, manifest) if proved and not found.missing else []
         for file in found.changed:
             session.say(f"  FAIL {folder / file} is not what the model gives now")
         for file in found.missing:
@@ -404,6 +409,7 @@ def check_command(
             "changed": found.changed,
             "missing": found.missing,
             "checks": [item.as_dict() for item in found.check.results],
+            **({"rounding": [item.as_dict() for item in bounds]} if proved else {}),
         }
         if found.passed:
             verdict = verdict_text(item.verdict for item in found.check.results)
@@ -412,6 +418,26 @@ def check_command(
         session.finish(result, f"failed: {folder}: {what}", CHECK_FAILED)
 
     session.run(body)
+
+
+def _proved(session: Session, block: Block, folder: Path, manifest: dict[str, Any]) -> list[CheckResult]:
+    """Prove, and return a check for each function; both tools are asked for first."""
+    for name, package in (("frama-c", "frama-c-base"), ("gappa", "gappa")):
+        tool(name, package)
+    session.say(f"{block.name}: Frama-C, function by function; a filter of twelve states takes minutes")
+    return prove(block, text_in(folder, manifest)).checks
+
+
+def _bounded(session: Session, block: Block, manifest: dict[str, Any]) -> list[Bound]:
+    """Bound what one call loses to rounding, and print it."""
+    if manifest.get("contract") == "on":
+        session.say("  rounding: no bounds, because fused operations are allowed; export with --contract off")
+        return []
+    precision = Precision(manifest["precision"])
+    bounds = bound_rounding(block, precision, mathematics=manifest.get("mathematics", "own"))
+    for line in rounding_text(bounds, precision):
+        session.say(line)
+    return bounds
 
 
 @main.command(name="audit")

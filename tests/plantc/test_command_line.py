@@ -570,13 +570,17 @@ def test_the_demo_exports_and_draws(model, plantc, tmp_path):
 
 @pytest.mark.slow
 def test_check_proves_what_lies_there(model, plantc, needs, tmp_path):
-    needs("frama-c")
+    needs("frama-c", "gappa")
     name, folder = model(PENDULUM), tmp_path / "generated_c/pendulum_ekf"
     assert plantc("export", f"{name}:pendulum_ekf", *FAST, "--precision", "float").status == 0
     said = plantc("check", folder, "--model", f"{name}:pendulum_ekf", *FAST, "--prove", "--json")
     assert said.status == 0, said.err
     proved = [item for item in one_object(said)["checks"] if item["name"].startswith("proof of ")]
     assert {"proof of step", "proof of is_held"} <= {item["name"] for item in proved}
+    bounds = {(item["entry"], item["name"]): item for item in one_object(said)["rounding"]}
+    assert 0 < bounds["predict", "theta"]["error"] < 1e-5
+    assert bounds["predict", "covariance"]["reason"] == "a kernel's result (Congruence)"
+    assert "rounding errors of one call, bounded by Gappa" in said.err
     source = folder / "src/pendulum_ekf.c"
     whole = source.read_text()
     spoilt = whole.replace("(i < 3U) && held", "(i < 2U) && held")
