@@ -605,6 +605,13 @@ def test_check_proves_what_lies_there(model, plantc, needs, tmp_path):
     assert "FAIL proof of is_held" in bad.err
 
 
+def test_what_may_be_fused_is_not_proved(model, plantc, needs, tmp_path):
+    needs("frama-c", "gappa")
+    name, folder = model(LOW_PASS), tmp_path / "generated_c/low_pass"
+    assert plantc("export", name, *FAST, "--contract", "on").status == 0
+    fails(plantc("check", folder, "--model", name, *FAST, "--prove"), 2, "--contract on", "--contract off")
+
+
 # -- tables that a model brings ---------------------------------------------------------------------------------------
 
 TABLE = (
