@@ -16,7 +16,7 @@ import numpy as np
 
 from ..symbolic.block import Block
 from ..symbolic.signals import Kind, Signal
-from .cache import Kept, is_cacheable, keep, kept, key_of
+from .cache import Kept, keep, kept, key_of
 from .compiler import contraction_flag, find_compiler
 from .coverage import measure_coverage
 from .crosscheck import CrossCheck, cross_check, make_probes, make_views
@@ -260,9 +260,10 @@ def export(
         check_fmu_is_possible(block)
     report("compile", 0, 1)
     key = ""
-    if cached and native is None and not (fmu or chosen.tables) and is_cacheable(block):
-        key = key_of(block, emit(block, precision, mathematics=chosen.mathematics), chosen, steps)
-        before = kept(key)
+    if cached and native is None and not (fmu or chosen.tables):
+        text = emit(block, precision, mathematics=chosen.mathematics)
+        key = key_of(block, text, chosen, steps)
+        before = kept(key, block, text) if key else None
         if before is not None:
             write_folder(folder, dict(before.files))
             return Export(
