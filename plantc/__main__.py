@@ -32,6 +32,7 @@ from .codegen.package import (
     read_manifest,
     text_in,
     with_design,
+    write_design,
 )
 from .codegen.proof import prove
 from .codegen.rounding import Bound, bound_rounding
@@ -234,6 +235,7 @@ def _derived_text(answer: dict[str, Any]) -> list[str]:
     "--jobs", type=click.IntRange(1, 64), default=1, show_default=True, help="Blocks that are exported at a time."
 )
 @click.option("--no-cache", is_flag=True, help="Do all work anew, even if the same export was done before.")
+@click.option("--force", is_flag=True, help="Write over files of an earlier export even if they were changed since.")
 @click.option("--fmu", is_flag=True, help="Write an FMI 2.0 co-simulation unit of the same C too, BLOCK.fmu.")
 @click.option("--tables", is_flag=True, help="Also measure the tables that the model brings; may take minutes.")
 @_target
@@ -268,6 +270,7 @@ def export_command(
     redesign: bool,
     jobs: int,
     no_cache: bool,
+    force: bool,
     fmu: bool,
     as_json: bool,
     debug: bool,
@@ -281,11 +284,14 @@ def export_command(
         options = _options(precision, **machine)
         if options.tables and not any(block.tables for block in blocks):
             raise UsageError(f"{path}: --tables is given, but no block brings a table; leave it out")
+        how = {"steps": steps, "fmu": fmu, "cached": not no_cache, "force": force}
         if jobs > 1 and len(blocks) > 1:
-            for block in blocks:  # the one file that all of them would write
-                with_design(block, path.parent / "design.json", redesign=redesign)
-            _finish_jobs(session, parallel.export_all(path, blocks, out, options, steps, fmu, not no_cache, jobs))
-        exports = _export_all(session, blocks, path, out, options, steps, redesign, fmu, not no_cache)
+            outcomes = parallel.export_all(path, blocks, out, options, redesign, how, jobs)
+            designed = {name: numbers for outcome in outcomes for name, numbers in outcome.designed.items()}
+            if designed:  # the one file that all of them would write
+                _write_design(session, path, designed)
+            _finish_jobs(session, outcomes)
+        exports = _export_all(session, blocks, path, out, options, redesign, how)
         result = {"blocks": [export_json(item) for item in exports]}
         folders = ", ".join(str(item.folder) for item in exports)
         session.finish(result, f"exported, {_verdict(result)}: {folders}", GOOD)
@@ -330,16 +336,13 @@ def _export_all(
     path: Path,
     out: Path,
     options: Options,
-    steps: int,
-    redesign: bool,
-    fmu: bool = False,
-    cached: bool = False,
+    redesign: bool = False,
+    how: dict[str, Any] | None = None,
 ) -> list[Export]:
+    """Export blocks one after the other; `how` is for `export`."""
     exports = []
     for given in blocks:
-        block, wrote = with_design(given, path.parent / "design.json", redesign=redesign)
-        if wrote:
-            session.say(f"{block.name}: designed numbers written to {path.parent / 'design.json'}")
+        block, designed = with_design(given, path.parent / "design.json", redesign=redesign, write=False)
         started = time.perf_counter()
         with session.progress() as display:
             task = display.add_task(block.name, total=None)
@@ -347,10 +350,18 @@ def _export_all(
             def report(what: str, done: int, total: int, task: Any = task, name: str = block.name) -> None:
                 display.update(task, description=f"{name}: {what}", completed=done, total=total)
 
-            exports.append(export(block, out, options=options, steps=steps, progress=report, fmu=fmu, cached=cached))
+            exports.append(export(block, out, options=options, progress=report, **(how or {})))
+        if designed is not None:  # now that nothing stands against it
+            _write_design(session, path, {block.name: designed})
         for line in evidence_text(exports[-1], time.perf_counter() - started):
             session.say(line)
     return exports
+
+
+def _write_design(session: Session, path: Path, designed: dict[str, Any]) -> None:
+    file = path.parent / "design.json"
+    write_design(file, designed)
+    session.say(f"{', '.join(designed)}: designed numbers written to {file}")
 
 
 @main.command(name="check")
@@ -515,7 +526,7 @@ def demo_command(out: Path, as_json: bool, debug: bool) -> None:
             "The extended Kalman filter of a 12-state quadrotor: derived, written as C, compiled, cross-checked."
         )
         path = Path(__file__).resolve().parent
-        exports = _export_all(session, [quadrotor_ekf], path / "demo.py", out, Options(), 100, False)
+        exports = _export_all(session, [quadrotor_ekf], path / "demo.py", out, Options())
         image = picture(quadrotor_ekf, out / "quadrotor_ekf.svg")
         session.say(f"  the compiled C at work: {image}")
         result = {"blocks": [export_json(item) for item in exports], "picture": str(image)}
