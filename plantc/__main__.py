@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ctypes
 import json
+import os
 import re
 import sys
 import time
@@ -45,12 +47,42 @@ from .symbolic import Block
 GOOD, CHECK_FAILED, USER_MUST_MEND = 0, 1, 2
 
 
+class _Diverted:
+    """Standard output sent to standard error, down to the file descriptor, until it is given back.
+
+    What a model prints is a message, also where it is a program that the model starts, or a library in C.
+    """
+
+    def __init__(self) -> None:
+        self.stream = sys.stdout
+        self.own: int | None = None
+        sys.stdout = sys.stderr
+        try:
+            self.stream.flush()
+            self.own = os.dup(1)
+            os.dup2(2, 1)
+        except (OSError, ValueError):  # a closed one needs no diversion
+            self.own = None
+
+    def end(self) -> None:
+        """Give standard output back."""
+        if os.name == "posix":
+            ctypes.CDLL(None).fflush(None)
+        sys.stdout = self.stream
+        if self.own is not None:
+            os.dup2(self.own, 1)
+            os.close(self.own)
+            self.own = None
+
+
 class Session:
     """One run of a command: where its messages go, and how it ends."""
 
     def __init__(self, as_json: bool, debug: bool):
         self.as_json, self.debug = as_json, debug
         self.console = Console(stderr=True, highlight=False, soft_wrap=True, emoji=False)
+        self.diverted: _Diverted | None = None
+        self.finished = False
 
     def say(self, text: str) -> None:
         """Print a message, to standard error."""
@@ -58,18 +90,28 @@ class Session:
 
     def finish(self, result: dict[str, Any], summary: str, status: int) -> NoReturn:
         """Print the JSON object if asked for, then the summary, and leave."""
+        self.finished = True
+        self._give_back()
         if self.as_json:
             click.echo(json.dumps({"status": status, "summary": summary, **result}, indent=2))
         self.say(summary)
         sys.exit(status)
 
+    def _give_back(self) -> None:
+        if self.diverted is not None:
+            self.diverted.end()
+            self.diverted = None
+
     def run(self, body: Callable[[], NoReturn]) -> NoReturn:
         """Run a command; whatever goes wrong becomes one sentence and an exit status."""
+        self.diverted = _Diverted()
         try:
             body()
         except KeyboardInterrupt:
             self.finish({"error": "interrupted"}, "interrupted: what was being written is as it was", USER_MUST_MEND)
-        except Exception as error:
+        except BaseException as error:  # the user's own code runs here, and may raise anything
+            if self.finished:
+                raise
             if self.debug:
                 traceback.print_exc()
             if isinstance(error, ExportError):
@@ -77,6 +119,8 @@ class Session:
                 self.finish({"error": str(error), "checks": checks}, f"failed: {error}", CHECK_FAILED)
             text = sentence(error)
             self.finish({"error": text}, f"error: {text}", USER_MUST_MEND)
+        finally:
+            self._give_back()
         raise AssertionError("a command ends by finish")
 
     def progress(self) -> Progress:

@@ -71,7 +71,7 @@ def _export_one(path: Path, name: str, out: Path, options: Options, redesign: bo
         done = export(block, out, options=options, **how)
     except ExportError as error:
         return Outcome(1, error=str(error))
-    except Exception as error:
+    except BaseException as error:  # the user's own code runs here, and may raise anything
         return Outcome(2, error=sentence(error))
     lines = evidence_text(done, time.perf_counter() - started)
     return Outcome(0, lines, export_json(done), designed={} if designed is None else {block.name: designed})

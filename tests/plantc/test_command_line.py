@@ -102,6 +102,39 @@ def test_as_a_program_streams_and_status(model):
     assert done.stderr.splitlines()[-1] == "model.py: 2 plant(s) derived"
 
 
+TALKATIVE = """
+import ctypes, os, subprocess
+print("by Python")
+os.write(1, b"by descriptor\\n")
+subprocess.run(["echo", "by a program"], check=True)
+ctypes.CDLL(None).printf(b"by C\\n")
+"""
+
+
+def test_whatever_a_model_writes_the_output_is_one_object(model):
+    done = program("derive", model(PENDULUM + TALKATIVE), "--dt", 0.01, "--json")
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["status"] == 0
+    for way in ("by Python", "by descriptor", "by a program", "by C"):
+        assert way in done.stderr
+
+
+@pytest.mark.parametrize("raised", ["Own('boo')", "SystemExit(0)", "GeneratorExit('boo')"])
+def test_whatever_a_model_raises_is_a_sentence(raised, model, plantc):
+    text = f"class Own(BaseException):\n    pass\n\nraise {raised}\n"
+    said = plantc("export", model(text), "--json")
+    fails(said, 2, "model.py, line 4: ", raised.split("(")[0])
+    assert one_object(said)
+
+
+@pytest.mark.parametrize("raised", ["SystemExit(0)", "GeneratorExit()"])
+def test_whatever_is_raised_while_a_model_is_worked_on_is_a_sentence(raised, model, plantc):
+    call = f"def call(*given):\n    raise {raised}\n\nlow_pass.oracle = type('Own', (), {{'call': call}})()\n"
+    said = plantc("export", model(LOW_PASS + call), *FAST, "--json")
+    fails(said, 2, raised.split("(")[0])
+    assert one_object(said)
+
+
 def test_as_a_program_a_mistake(model):
     done = program("derive", "nowhere.py", "--json")
     assert done.returncode == 2
