@@ -92,12 +92,12 @@ def james_stein_estimator(
     Parameters
     ----------
     plant : Plant
-        Discrete, without attitudes. Noise in a sensor's expression gives Pi = N(x-) = dh/dv.
+        Discrete, without attitudes. Noise v in a sensor's expression gives Pi = N(x-) = dh/dv.
     sensors : sequence of str, optional
         The sensors to use, each by itself; default all.
     std : float or dict, optional
         Sensor -> r, a run-time parameter ``std_<sensor>``, 0 or more. Default: that of the plant's noise where it is the
-        same for all rows, else 1, Pi being a root of the plant's noise matrix.
+        same in all rows (Pi = I), or of the noises that enter by N v (Pi = N); else 1, Pi a root of the noise matrix.
     shaping : (m, m) array, expression or dict, optional
         Sensor -> Pi, instead of the plant's. Then give `std`, unless the plant's noise is r^2 Pi Pi'.
     gamma : float or dict, optional
@@ -229,22 +229,18 @@ class _Builder(Derivation):
             R += plant.without_noise(plant.folded(sensor.variance_expression))
         noises = plant.sensor_noises(sensor)
         if noises:
-            stacked = ca.vertcat(*[noise.symbol for noise in noises])
-            N = plant.without_noise(ca.jacobian(plant.folded(sensor.expression), stacked))
+            N = self._noise_gain(sensor)
             R += N @ ca.SX(ca.sparsify(ca.diagcat(*[ca.DM(noise.strength) for noise in noises]))) @ N.T
         return ca.sparsify(R)
 
-    def _shape(self, sensor: Sensor) -> tuple[ca.SX, ca.SX | None, float, float, bool]:
-        """Return Pi Pi', Pi where it was given, what the plant's noise is divided by, r, and whether r has a unit."""
-        name, size = sensor.signal.name, sensor.signal.size
+    def _shape(self, sensor: Sensor) -> tuple[ca.SX, ca.SX | None, float, float, str]:
+        """Return Pi Pi', Pi where it was given, what the plant's noise is divided by, r, and the unit of r."""
+        name, size, unit = sensor.signal.name, sensor.signal.size, sensor.signal.unit
         noise = self._noise(sensor)
         given, std = self._given("shaping", name), self._given("std", name)
-        uniform = _uniform_variance(noise)
         if given is None:
-            shape = noise if uniform is None else ca.SX.eye(size)
-            unit_std = 1.0 if uniform is None else math.sqrt(uniform)
-            own = unit_std if std is None else self._number("std", name, std)
-            return shape, None, unit_std, own, uniform is not None
+            shape, unit_std, unit = self._own_shape(sensor, noise)
+            return shape, None, unit_std, unit_std if std is None else self._number("std", name, std), unit
         Pi = self.plant.folded(ca.SX(given if isinstance(given, ca.SX) else ca.DM(np.atleast_2d(given).astype(float))))
         if Pi.shape != (size, size):
             raise ModelError(f"{self.name}: shaping of {name!r} has shape {Pi.shape}; give a {size} x {size} matrix")
@@ -256,13 +252,36 @@ class _Builder(Derivation):
                 raise ModelError(
                     f"{self.name}: the noise of the sensor {name!r} is no multiple of its shaping Pi Pi'; give std="
                 )
-        return shape, Pi, 1.0, self._number("std", name, std), True
+        return shape, Pi, 1.0, self._number("std", name, std), unit
+
+    def _own_shape(self, sensor: Sensor, noise: ca.SX) -> tuple[ca.SX, float, str]:
+        """Return Pi Pi' of the plant's own noise, the std that was taken out of it, and the unit of that.
+
+        Noise that is the same in every row has Pi = I; noises of one std that enter by N v have Pi = N; of any other the
+        whole matrix is Pi Pi'.
+        """
+        uniform = _uniform_variance(noise)
+        if uniform is not None:
+            return ca.SX.eye(sensor.signal.size), math.sqrt(uniform), sensor.signal.unit
+        entering = self.plant.sensor_noises(sensor)
+        if entering and sensor.strength is None and sensor.variance_expression is None:
+            common = _uniform_variance(ca.diagcat(*[ca.SX(ca.DM(item.strength)) for item in entering]))
+            if common is not None:
+                N = self._noise_gain(sensor)
+                units = {item.signal.unit for item in entering}
+                return ca.sparsify(N @ N.T), math.sqrt(common), units.pop() if len(units) == 1 else ""
+        return noise, 1.0, ""
+
+    def _noise_gain(self, sensor: Sensor) -> ca.SX:
+        """Return N = dh/dv."""
+        stacked = ca.vertcat(*[noise.symbol for noise in self.plant.sensor_noises(sensor)])
+        return self.plant.without_noise(ca.jacobian(self.plant.folded(sensor.expression), stacked))
 
     def _measured(self, sensor: Sensor) -> _Measured:
         plant, signal = self.plant, sensor.signal
         h = plant.without_noise(plant.folded(sensor.expression))
         C = ca.sparsify(ca.jacobian(h, plant.x))
-        shape, Pi, unit_std, std, has_unit = self._shape(sensor)
+        shape, Pi, unit_std, std, unit = self._shape(sensor)
         everything = ca.vertcat(ca.vec(ca.densify(C)), ca.vec(ca.densify(shape)))
         changes = bool(ca.symvar(everything))
         nonlinear = bool(ca.depends_on(ca.vec(C), plant.x))
@@ -277,7 +296,6 @@ class _Builder(Derivation):
             weights = constant_weights(
                 self.name, signal.name, numbers, rows, reduce=self.options.rank_deficient == "reduce"
             )
-        unit = signal.unit if has_unit else ""
         std_signal = Signal(
             f"std_{signal.name}", 1, unit, (0.0,), (HIGHEST,), f"standard deviation r of the noise of {signal.name}",
             default=(std,), source=signal.source,

@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 from plantc.codegen import emit
 from plantc.codegen.crosscheck import make_views
 from plantc.codegen.layout import flatten
-from plantc.reference.james_stein import james_stein
-from plantc.symbolic import ModelError, Plant, Status
+from plantc.reference.james_stein import effective_dimension, james_stein, shrink_constant, weight
+from plantc.symbolic import ModelError, Plant, Status, cos, sin, vertcat
 from plantc.symbolic.james_stein import james_stein_estimator
+from scipy.optimize import least_squares
 
 from plantc import InterpretView, NativeView, ReferenceView, cross_check
 
@@ -65,17 +66,17 @@ AT = {
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_core_of_section_10_1a(kind, noise):
     plain, modified = kind(still(C1, noise=noise)), kind(still(C1, "modified", noise=noise, gamma=0.05))
-    for r, (weight, state, weight_modified, state_modified) in AT.items():
+    for r, (expected, state, expected_modified, state_modified) in AT.items():
         status, x, out = update(plain, PREDICTION, Y, std_y=r)
         assert status == 0
         np.testing.assert_allclose(x, state, rtol=2e-9, atol=1e-10)
-        assert out["weight"] == pytest.approx(weight, rel=1e-9, abs=1e-10)
+        assert out["weight"] == pytest.approx(expected, rel=1e-9, abs=1e-10)
         c = 2 * (2.567140061 - 2)
         assert c / out["distance_squared"] == pytest.approx(0.1874012611, rel=2e-9)
         np.testing.assert_allclose(out["innovation"], Y - C1 @ PREDICTION, rtol=1e-14)
         _, x, out = update(modified, PREDICTION, Y, std_y=r)
         np.testing.assert_allclose(x, state_modified, rtol=2e-9, atol=1e-10)
-        assert out["weight"] == pytest.approx(weight_modified, rel=1e-9, abs=1e-10)
+        assert out["weight"] == pytest.approx(expected_modified, rel=1e-9, abs=1e-10)
 
 
 def test_an_effective_dimension_below_two_shrinks_nothing():
@@ -333,3 +334,174 @@ def test_a_fault_in_the_reference_is_caught(monkeypatch):
 
     monkeypatch.setattr(textbook, "shrink_constant", lambda n, effective: max(0.0, n - 2.0))
     assert not cross_check(still(C1), steps=40).passed
+
+
+# -- weights that change ----------------------------------------------------------------------------------------------
+
+
+def curved(**options):
+    """Three states seen through a nonlinear reading, with noise that depends on where one is."""
+    plant = Plant("curved", dt=0.1)
+    x, y, z = (plant.state(name, range=(-10, 10)) for name in "xyz")
+    plant.dynamics({x: x, y: y, z: z})
+    v = plant.noise("v", size=4, variance=0.01)
+    spread = ca.diag(vertcat(1 + 0.1 * x**2, 1, 2, 1))
+    plant.sensor("s", vertcat(2 * x + 0.1 * x * y, y + 0.2 * sin(z), z + 0.05 * x**2, x + y) + spread @ v)
+    return james_stein_estimator(plant, **options)
+
+
+def curved_by_hand(x0, reading, r, gamma):
+    """The same by SciPy's least squares, run until it has converged."""
+    noise = np.diag([1 + 0.1 * x0[0] ** 2, 1, 2, 1])
+
+    def h(x):
+        return np.array([2 * x[0] + 0.1 * x[0] * x[1], x[1] + 0.2 * np.sin(x[2]), x[2] + 0.05 * x[0] ** 2, x[0] + x[1]])
+
+    def derivative(x):
+        return np.array([[2 + 0.1 * x[1], 0.1 * x[0], 0], [0, 1, 0.2 * np.cos(x[2])], [0.1 * x[0], 0, 1], [1, 1, 0]])
+
+    found = least_squares(
+        lambda x: np.linalg.solve(noise, reading - h(x)), x0, jac=lambda x: -np.linalg.solve(noise, derivative(x)),
+        xtol=1e-15, ftol=1e-15, gtol=1e-15, method="lm",
+    )  # fmt: skip
+    white = np.linalg.solve(noise, derivative(found.x))
+    e = found.x - x0
+    D2 = np.sum((white @ e) ** 2)
+    s = float(weight(np.array(D2), r, shrink_constant(3, effective_dimension(derivative(found.x), noise)), gamma))
+    return x0 + s * e, D2, s
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_nonlinear_reading_beside_least_squares_of_scipy(kind):
+    view, rng = kind(curved(gamma=0.02, iterations=14)), np.random.default_rng(4)
+    for _ in range(25):
+        x0 = rng.uniform(-2, 2, 3)
+        reading = np.array([2 * x0[0] + 0.1 * x0[0] * x0[1], x0[1] + 0.2 * np.sin(x0[2]), x0[2] + 0.05 * x0[0] ** 2,
+                            x0[0] + x0[1]]) + rng.normal(scale=0.3, size=4)  # fmt: skip
+        params = view.params(std_s=0.3)
+        memory = view.init(params)
+        for name, value in zip("xyz", x0, strict=True):
+            memory[name] = value
+        answer = view.call("update_s", memory, view.inputs("update_s", {"s": reading}), params)
+        state, D2, s = curved_by_hand(x0, reading, 0.3, 0.02)
+        assert answer.status == 0
+        np.testing.assert_allclose([float(answer.memory[name]) for name in "xyz"], state, rtol=1e-7, atol=1e-7)
+        assert float(answer.outputs["distance_squared"]) == pytest.approx(D2, rel=1e-6)
+        assert float(answer.outputs["weight"]) == pytest.approx(s, rel=1e-6)
+
+
+def scaled_reading(**options):
+    """The reading of section 10.1(a) times a parameter, so that its weights are computed in C."""
+    plant = Plant("scaled", dt=1.0)
+    x = plant.state("x", size=4, range=(-1e3, 1e3))
+    plant.dynamics({x: x})
+    gain = plant.parameter("gain", 1.0, range=(0.0, 10.0))
+    plant.sensor("y", gain * (ca.DM(C1) @ x), variance=1.0)
+    return james_stein_estimator(plant, shaping=PI, std=1.0, **options)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_weights_computed_in_c_give_the_numbers_of_section_10_1a(kind):
+    plain, modified = kind(scaled_reading()), kind(scaled_reading(gamma=0.05))
+    for r, (expected, state, expected_modified, state_modified) in AT.items():
+        _, x, out = update(plain, PREDICTION, Y, std_y=r)
+        np.testing.assert_allclose(x, state, rtol=2e-9, atol=1e-10)
+        assert out["weight"] == pytest.approx(expected, rel=1e-9, abs=1e-10)
+        _, x, out = update(modified, PREDICTION, Y, std_y=r)
+        np.testing.assert_allclose(x, state_modified, rtol=2e-9, atol=1e-10)
+        assert out["weight"] == pytest.approx(expected_modified, rel=1e-9, abs=1e-10)
+
+
+def test_weights_follow_what_they_depend_on():
+    view = NativeView(scaled_reading())
+    for gain in (0.1, 1.0, 7.0):
+        expected = james_stein(PREDICTION, Y, gain * C1, PI, 0.4)
+        _, x, out = update(view, PREDICTION, Y, std_y=0.4, gain=gain)
+        np.testing.assert_allclose(x, expected.state, rtol=1e-10, atol=1e-12)
+        assert out["weight"] == pytest.approx(float(expected.weight), rel=1e-10)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_rank_lost_at_run_time_is_refused(kind):
+    view = kind(scaled_reading())
+    status, x, _ = update(view, PREDICTION, Y, gain=0.0)
+    assert status == Status.NOT_POSITIVE
+    assert x.tobytes() == PREDICTION.tobytes()
+
+
+def squeezed():
+    plant = Plant("squeezed", dt=1.0)
+    x = plant.state("x", size=3, range=(-1e3, 1e3))
+    angle = plant.input("angle", range=(-2, 2))
+    plant.dynamics({x: x})
+    plant.sensor("y", vertcat(x[0] + x[1], x[0] + cos(angle) * x[1], x[2]), variance=0.01)
+    return james_stein_estimator(plant, around={"angle": 1.0})
+
+
+def test_a_rank_lost_by_an_input_is_refused_where_it_is_nearly_lost():
+    view = NativeView(squeezed())
+    for angle, expected in ((1.0, 0), (1e-2, 0), (1e-3, Status.NOT_POSITIVE), (0.0, Status.NOT_POSITIVE)):
+        memory = view.init(view.params())
+        inputs = view.inputs("update_y", {"y": np.full(3, 1e-4), "angle": angle})
+        assert view.call("update_y", memory, inputs, view.params()).status == expected
+
+
+@pytest.mark.parametrize(("make", "precision"), [(curved, "double"), (squeezed, "float"), (scaled_reading, "float")])
+def test_views_agree_where_weights_change(make, precision):
+    check = cross_check(make(), precision, steps=40)
+    assert check.passed, check.failures
+
+
+def test_a_fault_in_the_eigenvalue_is_caught(monkeypatch):
+    """Bisection that stops after six trips: the weights are off by a percent."""
+    import plantc.symbolic.shrinkage as shrinkage
+
+    monkeypatch.setattr(shrinkage, "BISECTIONS", 6)
+    check = cross_check(scaled_reading(), steps=40)
+    assert {"interpret = reference", "native = reference"} & {failure.name for failure in check.failures}
+
+
+def test_a_fault_in_gauss_newton_is_caught():
+    assert not cross_check(block_with_fewer_steps(), steps=40).passed
+
+
+def block_with_fewer_steps():
+    block = curved(iterations=1)
+    block.oracle = curved(iterations=5).oracle
+    return block
+
+
+def changing(n):
+    plant = Plant("many", dt=1.0)
+    x = plant.state("x", size=n)
+    plant.dynamics({x: x})
+    plant.sensor("y", plant.parameter("gain", 1.0) * x, variance=1.0)
+    return plant
+
+
+def test_what_cannot_change_is_a_sentence():
+    with pytest.raises(ModelError, match="at most 8 states, and there are 9"):
+        james_stein_estimator(changing(9))
+    with pytest.raises(ModelError, match="'reduce' needs constant weights"):
+        james_stein_estimator(changing(3), rank_deficient="reduce")
+    plant = Plant("alike", dt=1.0)
+    x = plant.state("x", size=2)
+    plant.dynamics({x: x})
+    plant.sensor("y", vertcat(x[0] ** 2 + x[1], 2 * (x[0] ** 2 + x[1])), variance=1.0)
+    with pytest.raises(ModelError, match="rank 1 and the state n = 2"):
+        james_stein_estimator(plant)
+
+
+def test_wrapped_readings_and_dt_as_an_input():
+    plant = Plant("compass")
+    heading, rate = plant.state("heading", angle=True), plant.state("rate", range=(-10, 10))
+    plant.dynamics({heading: rate, rate: -rate})
+    plant.sensor("angles", vertcat(heading, heading + 0.1 * rate), angle=True, std=0.02)
+    block = james_stein_estimator(plant.discretise("rk4", dt=(0.01, 0.5)))
+    view = NativeView(block)
+    params = view.params(heading_0=3.1)
+    inputs = view.inputs("step", {"dt": 0.1, "has_angles": True, "angles": [-3.1, -3.1]})
+    answer = view.call("step", view.init(params), inputs, params)
+    assert answer.status == 0
+    assert float(answer.memory["heading"]) == pytest.approx(-3.1)
+    assert cross_check(block, steps=40).passed
