@@ -30,7 +30,7 @@ from .folder import MEASURED, FolderError, check_folder_is_free, read_manifest, 
 from .fuzz import fuzz_source
 from .host_gates import measure_gates
 from .layout import default_params
-from .on_target import chosen_targets, measure_targets
+from .on_target import check_it_fits, chosen_targets, measure_targets
 from .options import Options
 from .packages import package_files
 from .report import report_html
@@ -263,10 +263,10 @@ def export(
     chosen_targets(chosen)  # a missing tool is told before the work
     if fmu:
         check_fmu_is_possible(block)
-    report("compile", 0, 1)
+    report("write the C", 0, 1)
+    text = native.text if native is not None else emit(block, precision, mathematics=chosen.mathematics)
     key = ""
     if cached and native is None and not (fmu or chosen.tables):
-        text = emit(block, precision, mathematics=chosen.mathematics)
         key = key_of(block, text, chosen, steps)
         before = kept(key, block, text) if key else None
         if before is not None:
@@ -274,7 +274,10 @@ def export(
             return Export(
                 block, chosen, folder, before.files, CrossCheck(before.results, before.statuses), before.evidence, True
             )
-    compiled = native or NativeView(block, precision, contract=chosen.contract, mathematics=chosen.mathematics)
+    report("compile for the targets", 0, 1)
+    check_it_fits(block, chosen, text)
+    report("compile", 0, 1)
+    compiled = native or NativeView(block, precision, text=text, contract=chosen.contract)
     views = make_views(block, precision, compiled)
     check = cross_check(
         block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)
