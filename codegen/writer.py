@@ -898,7 +898,7 @@ def needs_params(block: Block, entry: Entry) -> bool:
             if any(isinstance(item, Place) and item.space == "param" for _, item in statement.arguments):
                 return True
         elif isinstance(statement, Evaluate):
-            used = _inputs_used(statement)
+            used = inputs_used(statement)
             if any(place.space == "param" for place in used):
                 return True
         elif any(_mentions_param(item) for item in vars(statement).values()):
@@ -906,7 +906,8 @@ def needs_params(block: Block, entry: Entry) -> bool:
     return False
 
 
-def _inputs_used(statement: Evaluate) -> set[Place]:
+def inputs_used(statement: Evaluate) -> set[Place]:
+    """Return the places that an expression depends on, of all that it is given."""
     positions = {step.place for step in tape(statement.function).steps if step.operation == "input"}
     used = set()
     for argument, places in enumerate(statement.reads):

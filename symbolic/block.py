@@ -479,9 +479,10 @@ class Block:
         return Signal("state", kind=Kind.GROUP, members=(*self.memory_signals, *groups))
 
     def param_group(self) -> Signal:
-        """Return the parameters as one group signal, parts nested."""
+        """Return the parameters as one group signal, parts nested; a part without parameters is no member."""
         groups = [replace(part.param_group(), name=name) for name, part in self.parts.items()]
-        return Signal("params", kind=Kind.GROUP, members=(*self.param_signals, *groups))
+        used = [group for group in groups if group.members]
+        return Signal("params", kind=Kind.GROUP, members=(*self.param_signals, *used))
 
     def judge_inputs(self, entry: Entry) -> Condition:
         """Return the condition that the inputs of an entry are within their ranges.
@@ -531,6 +532,19 @@ class Block:
             check_unique(
                 [(signal.name, f"the output {signal.name!r} of {entry.name}") for signal in entry.outputs], self.name
             )
+
+        check_unique(self._prefixed(), self.name)
+
+    def _prefixed(self, prefix: str = "") -> Iterator[tuple[str, str]]:
+        """Yield (name behind the block's own, what it is) of the functions and types of the generated C."""
+        where = f" of part {prefix[:-1]!r}" if prefix else ""
+        for word in ("state_t", "params_t", *(("status_t", "status_text", "model") if not prefix else ())):
+            yield f"{prefix}{word}", f"{word}{where}"
+        for name in self.entries:
+            for end in ("", "_core", "_in_t", "_out_t"):
+                yield f"{prefix}{name}{end}", f"the entry {name!r}{where}"
+        for name, part in self.parts.items():
+            yield from part._prefixed(f"{prefix}{name}_")
 
     def model_hash(self) -> str:
         """Return eight hexadecimal digits of a hash of the model: same model, same hash, on any machine."""
