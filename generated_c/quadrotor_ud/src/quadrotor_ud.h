@@ -1,6 +1,6 @@
 /* quadrotor_ud: Extended Kalman filter of the plant "quadrotor6", in single precision.
  *
- * Written by plantc 0.1.0 from model e19130e8. Do not edit: change the model, export again.
+ * Written by plantc 0.1.0 from model f4dfb1d1. Do not edit: change the model, export again.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  *
  *    x' = vx
