@@ -24,12 +24,15 @@ if (_checkout / "pyproject.toml").is_file() and not (_Path(__file__).parent / "s
 from .codegen import InterpretView, NativeView, ReferenceView, Trace, cross_check, emit, export
 from .symbolic import Attitude, Block, ModelError, Plant, Status
 from .symbolic.analysis import OperatingPoint, linearise, trim
-from .symbolic.composition import connect, delay
+from .symbolic.composition import connect, delay, wires
+from .symbolic.controllers import state_feedback
+from .symbolic.design import Gain, ackermann, lqr, place, place_chains
 from .symbolic.estimators import extended_kalman_filter, kalman_filter, steady_state_kalman_filter
 
 __all__ = [
     "Attitude",
     "Block",
+    "Gain",
     "InterpretView",
     "ModelError",
     "NativeView",
@@ -38,6 +41,7 @@ __all__ = [
     "ReferenceView",
     "Status",
     "Trace",
+    "ackermann",
     "connect",
     "cross_check",
     "delay",
@@ -46,6 +50,11 @@ __all__ = [
     "extended_kalman_filter",
     "kalman_filter",
     "linearise",
+    "lqr",
+    "place",
+    "place_chains",
+    "state_feedback",
     "steady_state_kalman_filter",
     "trim",
+    "wires",
 ]

@@ -19,7 +19,8 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from . import models, parallel
 from .codegen.audit import AUDITS, AuditResult, audit_folder
 from .codegen.emit import generator_version
-from .codegen.findings import verdict_text
+from .codegen.exported import tool
+from .codegen.findings import CheckResult, verdict_text
 from .codegen.mathematics import CHOICES
 from .codegen.options import Options
 from .codegen.package import (
@@ -33,9 +34,10 @@ from .codegen.package import (
     with_design,
 )
 from .codegen.proof import prove
+from .codegen.rounding import Bound, bound_rounding
 from .codegen.style import Precision
 from .codegen.targets import TARGETS
-from .evidence import MARKS, checks_text, evidence_text, export_json, sentence
+from .evidence import MARKS, checks_text, evidence_text, export_json, rounding_text, sentence
 from .models import UsageError
 from .symbolic import Block
 
@@ -233,6 +235,7 @@ def _derived_text(answer: dict[str, Any]) -> list[str]:
 )
 @click.option("--no-cache", is_flag=True, help="Do all work anew, even if the same export was done before.")
 @click.option("--fmu", is_flag=True, help="Write an FMI 2.0 co-simulation unit of the same C too, BLOCK.fmu.")
+@click.option("--tables", is_flag=True, help="Also measure the tables that the model brings; may take minutes.")
 @_target
 @click.option(
     "--contract",
@@ -276,6 +279,8 @@ def export_command(
     def body() -> NoReturn:
         blocks, path = models.blocks_of(model)
         options = _options(precision, **machine)
+        if options.tables and not any(block.tables for block in blocks):
+            raise UsageError(f"{path}: --tables is given, but no block brings a table; leave it out")
         if jobs > 1 and len(blocks) > 1:
             for block in blocks:  # the one file that all of them would write
                 with_design(block, path.parent / "design.json", redesign=redesign)
@@ -311,12 +316,12 @@ def _finish_jobs(session: Session, outcomes: list[parallel.Outcome]) -> NoReturn
 
 
 def _options(
-    precision: str, targets: tuple[str, ...], contract: str, mathematics: str, flash: int, ram: int
+    precision: str, targets: tuple[str, ...], contract: str, mathematics: str, flash: int, ram: int, tables: bool
 ) -> Options:
     names = tuple(dict.fromkeys(targets))
     if (flash or ram) and set(names) <= {"host"}:
         raise UsageError("--flash and --ram are sizes of a target, and there is none; give --target, or leave them out")
-    return Options(Precision(precision), names, contract == "on", mathematics, flash=flash, ram=ram)
+    return Options(Precision(precision), names, contract == "on", mathematics, flash=flash, ram=ram, tables=tables)
 
 
 def _export_all(
@@ -355,7 +360,10 @@ def _export_all(
     "--steps", type=click.IntRange(20, 100000), default=100, show_default=True, help="Length of the nominal trace."
 )
 @click.option(
-    "--prove", "proved", is_flag=True, help="Also prove by Frama-C that no call takes the memory out of its ranges."
+    "--prove",
+    "proved",
+    is_flag=True,
+    help="Also prove by Frama-C that no call takes the memory out of its ranges, and bound rounding errors by Gappa.",
 )
 @_target
 @_common
@@ -388,10 +396,10 @@ def check_command(
             )
         found.check.results += design_residuals(block)
         if proved and not found.missing:
-            session.say(f"{block.name}: Frama-C, function by function; a filter of twelve states takes minutes")
-            found.check.results += prove(block, text_in(folder, manifest)).checks
+            found.check.results += _proved(session, block, folder, manifest)
         for line in checks_text(found.check.results):
             session.say(line)
+        bounds = _bounded(session, block, manifest) if proved and not found.missing else []
         for file in found.changed:
             session.say(f"  FAIL {folder / file} is not what the model gives now")
         for file in found.missing:
@@ -401,6 +409,7 @@ def check_command(
             "changed": found.changed,
             "missing": found.missing,
             "checks": [item.as_dict() for item in found.check.results],
+            **({"rounding": [item.as_dict() for item in bounds]} if proved else {}),
         }
         if found.passed:
             verdict = verdict_text(item.verdict for item in found.check.results)
@@ -409,6 +418,26 @@ def check_command(
         session.finish(result, f"failed: {folder}: {what}", CHECK_FAILED)
 
     session.run(body)
+
+
+def _proved(session: Session, block: Block, folder: Path, manifest: dict[str, Any]) -> list[CheckResult]:
+    """Prove, and return a check for each function; both tools are asked for first."""
+    for name, package in (("frama-c", "frama-c-base"), ("gappa", "gappa")):
+        tool(name, package)
+    session.say(f"{block.name}: Frama-C, function by function; a filter of twelve states takes minutes")
+    return prove(block, text_in(folder, manifest)).checks
+
+
+def _bounded(session: Session, block: Block, manifest: dict[str, Any]) -> list[Bound]:
+    """Bound what one call loses to rounding, and print it."""
+    if manifest.get("contract") == "on":
+        session.say("  rounding: no bounds, because fused operations are allowed; export with --contract off")
+        return []
+    precision = Precision(manifest["precision"])
+    bounds = bound_rounding(block, precision, mathematics=manifest.get("mathematics", "own"))
+    for line in rounding_text(bounds, precision):
+        session.say(line)
+    return bounds
 
 
 @main.command(name="audit")
@@ -428,7 +457,7 @@ def check_command(
 )
 @_common
 def audit_command(folder: Path, only: tuple[str, ...], calls: int, seconds: float, as_json: bool, debug: bool) -> None:
-    """Look at the C in FOLDER with analysers, sanitizers and fuzzers; writes FOLDER/audit.json."""
+    """Look at the C in FOLDER with analysers, sanitizers and fuzzers; writes FOLDER/audit.json, shown in its report.html."""
     session = Session(as_json, debug)
 
     def body() -> NoReturn:

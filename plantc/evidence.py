@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import json
+import re
+from collections.abc import Sequence
+from decimal import ROUND_CEILING, Decimal, localcontext
 from typing import Any
+
+import numpy as np
 
 from .codegen.audit import AuditError
 from .codegen.compiler import CompilerError
@@ -12,6 +17,8 @@ from .codegen.exported import MissingTool
 from .codegen.findings import CheckResult
 from .codegen.package import DesignError, Export
 from .codegen.proof import ProofError
+from .codegen.rounding import Bound
+from .codegen.style import Precision
 from .models import UsageError
 from .symbolic import ModelError
 
@@ -46,7 +53,8 @@ def evidence_text(item: Export, seconds: float) -> list[str]:
     lines.append(f"  statuses reached: {reached}")
     lines += coverage_text(evidence.get("coverage", ""))
     lines += operations_text(json.loads(item.files["manifest.json"])["entries"])
-    return [*lines, *targets_text(evidence.get("targets", {}))]
+    lines += targets_text(evidence.get("targets", {}))
+    return [*lines, *(f"  {table['title']}: {table['caption']} (report.html)" for table in evidence.get("tables", []))]
 
 
 def coverage_text(coverage: Any) -> list[str]:
@@ -118,3 +126,51 @@ def checks_text(results: list[CheckResult]) -> list[str]:
         if result.mismatch is not None:
             lines.append(f"       {result.mismatch}")
     return lines
+
+
+def rounding_text(bounds: Sequence[Bound], precision: Precision) -> list[str]:
+    """Return a table of what one call can lose to rounding, and of what has no bound.
+
+    Numbers of one name are on one line, which has the worst of them.
+    """
+    groups: dict[tuple[str, str, str], list[Bound]] = {}
+    for bound in bounds:
+        stem = re.sub(r"(\[\d+\]|(_\d+)+)$", "", bound.name) if bound.role == "local" else bound.name.split("[")[0]
+        why = "" if bound.error is not None else bound.reason
+        groups.setdefault((bound.entry, stem, re.sub(r"[\d.]+e[+-]\d+|\[\d+\]", "", why)), []).append(bound)
+    own = [bound for bound in bounds if not bound.is_of_kernel]
+    anywhere, usual = sum(bound.error is not None for bound in own), sum(bound.is_bounded for bound in own)
+    lines = [
+        f"  rounding errors of one call, bounded by Gappa: {anywhere} of {len(own)} numbers where all is anywhere in its range, "
+        f"{usual} with the parameters at their defaults; none of what kernels give"
+    ]
+    width = max((len(f"{entry}: {stem}") for entry, stem, _ in groups), default=0) + 5
+    for (entry, stem, _), group in groups.items():
+        name = f"{entry}: {group[0].name}" if len(group) == 1 else f"{entry}: {stem} ({len(group)})"
+        lines.append(f"    {name:<{width}}  {_rounding_of(group, precision)}")
+    return lines
+
+
+def _rounding_of(group: Sequence[Bound], precision: Precision) -> str:
+    """Return the worst bound of numbers that belong together, or why there is none."""
+    unit = f" {group[0].unit}" if group[0].unit else ""
+
+    def said(error: float, reaches: float) -> str:
+        last = float(np.spacing(precision.dtype(reaches)))
+        return f"{_at_least(error)}{unit} of {reaches:.3g}, {_at_least(error / last)} ulp of it"
+
+    worst = max(group, key=lambda bound: bound.error or 0.0)
+    usual = max(group, key=lambda bound: bound.error_at_defaults or 0.0)
+    parts = [f"none: {worst.reason}"]
+    if worst.error is not None and worst.low is not None and worst.high is not None:
+        parts = [said(worst.error, max(abs(worst.low), abs(worst.high)))]
+    if usual.error_at_defaults is not None and usual.reaches_at_defaults is not None:
+        parts.append(f"at the defaults {said(usual.error_at_defaults, usual.reaches_at_defaults)}")
+    return "; ".join([*parts, *worst.notes])
+
+
+def _at_least(value: float) -> str:
+    """Return two digits of a number, rounded up."""
+    with localcontext() as context:
+        context.prec, context.rounding = 2, ROUND_CEILING
+        return f"{float(+Decimal(value)):.2g}"

@@ -2,7 +2,7 @@
 
 from casadi import acos, asin, atan, atan2, cos, exp, fabs, fmax, fmin, if_else, log, sin, sqrt, tan, tanh, vertcat
 
-from .block import Block, Oracle, Scenario
+from .block import Block, Oracle, Scenario, Table
 from .errors import ModelError
 from .plant import Attitude, Plant, Symbol
 from .signals import Status
@@ -16,6 +16,7 @@ __all__ = [
     "Scenario",
     "Status",
     "Symbol",
+    "Table",
     "acos",
     "asin",
     "atan",

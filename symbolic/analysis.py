@@ -563,16 +563,16 @@ class Linearisation:
         A is first split into its strongly connected parts, so that chains of integrators, which rounding would
         scatter, keep their eigenvalues exactly.
         """
-        values = _eigenvalues(self.A)
+        values = eigenvalues_of(self.A)
         return np.asarray(values[np.lexsort((values.imag, values.real))])
 
     def controllability(self, *, tolerance: float = HAUTUS_TOLERANCE) -> Controllability:
         """Return which modes the inputs move; see `Controllability`."""
-        return Controllability(*_hautus(self.A, self.B, tolerance))
+        return Controllability(*hautus(self.A, self.B, tolerance))
 
     def observability(self, *, tolerance: float = HAUTUS_TOLERANCE) -> Observability:
         """Return which modes the sensors see; see `Observability`."""
-        return Observability(*_hautus(self.A.T, self.C.T, tolerance))
+        return Observability(*hautus(self.A.T, self.C.T, tolerance))
 
 
 @dataclass(frozen=True, eq=False)
@@ -951,10 +951,10 @@ def _sparse(matrix: Array) -> ca.SX:
 # -- the Hautus test --------------------------------------------------------------------------------------------------
 
 
-def _hautus(A: Array, B: Array, tolerance: float) -> tuple[int, int, Array, Array, Array]:
+def hautus(A: Array, B: Array, tolerance: float) -> tuple[int, int, Array, Array, Array]:
     """Return (rank, needed, eigenvalues, relative singular values, eigenvalues not reached) of (A, B)."""
     n = len(A)
-    eigenvalues = _eigenvalues(A)
+    eigenvalues = eigenvalues_of(A)
     if n == 0:
         return 0, 0, eigenvalues, np.zeros(0), np.zeros(0, dtype=complex)
     a, b = _scaled(A, B)
@@ -967,7 +967,7 @@ def _hautus(A: Array, B: Array, tolerance: float) -> tuple[int, int, Array, Arra
     margins = np.array([_refined(a, b, start)[0] for start in starts])
     missing: list[complex] = []
     while len(a):
-        found = [_refined(a, b, start) for start in (starts if len(missing) == 0 else _eigenvalues(a))]
+        found = [_refined(a, b, start) for start in (starts if len(missing) == 0 else eigenvalues_of(a))]
         distance, value, vector = min(found, key=lambda item: item[0])
         if distance > tolerance:
             break
@@ -1032,7 +1032,7 @@ def _scaled(A: Array, B: Array) -> tuple[Array, Array]:
     return A * states[None, :] / states[:, None], B * inputs[None, :] / states[:, None]
 
 
-def _eigenvalues(A: Array) -> Array:
+def eigenvalues_of(A: Array) -> Array:
     """Return the eigenvalues of A, those of each strongly connected part by themselves."""
     if len(A) == 0:
         return np.zeros(0, dtype=complex)

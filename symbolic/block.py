@@ -18,22 +18,30 @@ from .origins import Origin, place_of_call
 from .plant import Symbol
 from .program import (
     AllOf,
+    AnyOf,
     Assign,
     Call,
+    Compare,
     Condition,
     Element,
     Entry,
     Evaluate,
     IsSet,
+    Operand,
     Place,
+    Raise,
     Refuse,
     Statement,
+    When,
     Within,
     walk,
 )
-from .signals import WIDE, Kind, Signal, Status, check_default, make_range
+from .signals import WIDE, Kind, Signal, Status, check_default, make_range, spread
 
 Record = NDArray[np.void]
+
+FREE = 1.0e30
+"""Magnitude up to which an output may be before it is held at its limits."""
 
 
 class Oracle(Protocol):
@@ -84,6 +92,14 @@ class Design:
     properties: Callable[[dict[str, Any]], dict[str, tuple[float, float]]]
 
 
+@dataclass(frozen=True)
+class _Held:
+    """Outputs before they are held at their limits, and the statements that say so."""
+
+    free: dict[str, ca.SX]
+    statements: list[Statement]
+
+
 @dataclass
 class Scenario:
     """How to exercise a block in a way that makes sense: calls, memories, and the natural size of each field.
@@ -107,6 +123,37 @@ class Scenario:
     scales: Callable[[Mapping[str, Any]], dict[str, Any]] | None = None
     gaps: str = ""
     scaled: Callable[[Mapping[str, Any], float], dict[str, Any]] | None = None
+
+
+@dataclass(frozen=True)
+class Table:
+    """What was measured of a block on demand, for the evidence and the report of its export.
+
+    Attributes
+    ----------
+    caption : str
+        What the table shows.
+    columns : tuple of str
+        Heads, with units.
+    rows : list of tuple
+        Cells: text, or finite numbers.
+    note : str
+        How it was measured.
+    """
+
+    caption: str
+    columns: tuple[str, ...]
+    rows: list[tuple[str | int | float, ...]]
+    note: str = ""
+
+    def __post_init__(self) -> None:
+        for row in self.rows:
+            if len(row) != len(self.columns):
+                raise ModelError(
+                    f"table {self.caption!r}: a row has {len(row)} cells, there are {len(self.columns)} columns; give one each"
+                )
+            if any(isinstance(cell, float) and not np.isfinite(cell) for cell in row):
+                raise ModelError(f"table {self.caption!r}: a cell is not finite; say so in words")
 
 
 class Block:
@@ -147,6 +194,7 @@ class Block:
         self.scenario: Scenario | None = None
         self.derivative_checks: list[DerivativeCheck] = []
         self.design: Design | None = None
+        self.tables: dict[str, Callable[[], Table]] = {}  # title -> what an export measures where it is asked to
         self.float_bound = 0.05
         self.sample_time: float | None = None
         self.source_hash = ""
@@ -199,7 +247,9 @@ class Block:
         following: Mapping[Symbol, Any] | None = None,
         outputs: Mapping[str, Any] | None = None,
         output_units: Mapping[str, str] | None = None,
-        output_ranges: Mapping[str, tuple[float, float]] | None = None,
+        output_ranges: Mapping[str, tuple[Any, Any]] | None = None,
+        output_docs: Mapping[str, str] | None = None,
+        limits: Mapping[str, tuple[Any, Any]] | None = None,
         guards: Sequence[tuple[Any, Status]] = (),
         doc: str = "",
     ) -> None:
@@ -219,11 +269,82 @@ class Block:
             Name -> unit.
         output_ranges : dict, optional
             Output name -> (low, high); outside it the call is refused (OVERFLOW). Default -1e6 .. 1e6.
+        output_docs : dict, optional
+            Output name -> its meaning.
+        limits : dict, optional
+            Output name -> (low, high), each a number (or one for each element) or a parameter: the output is held
+            between them, and where that changes it the status is CLAMPED. What is not a number is refused (OVERFLOW).
         guards : sequence of (expression, Status)
             Where an expression is zero (false), the call is refused with the (negative) status, in this order.
         doc : str
             Its meaning.
         """
+        self._check_entry(name, inputs, guards)
+        update = {
+            symbol.signal.name: self._expression(value, symbol.signal.size)
+            for symbol, value in (following or {}).items()
+        }
+        unknown = set(update) - {item.name for item in self.memory_signals}
+        if unknown:
+            raise ModelError(f"{self.name}: {sorted(unknown)} are no memory fields; declare them with memory()")
+        answers = {
+            check_name("output", key, self.name): self._expression(value) for key, value in (outputs or {}).items()
+        }
+        signals = []
+        for key, value in answers.items():
+            low, high = make_range(
+                self.name, f"output {key!r}", (output_ranges or {}).get(key), (-WIDE, WIDE), value.numel()
+            )
+            unit, meaning = ((given or {}).get(key, "") for given in (output_units, output_docs))
+            signals.append(Signal(key, value.numel(), unit, low, high, meaning))
+        held = self._held(answers, limits or {})
+        used = [*self.param_symbols(), *self.memory_symbols(), *inputs]
+        conditions = [self._expression(value, 1) for value, _ in guards]
+        function = ca.Function(
+            f"{self.name}_{name}",
+            used,
+            [ca.densify(item) for item in [*conditions, *update.values(), *held.free.values(), *answers.values()]],
+            {"allow_free": True},
+        )
+        if function.get_free():
+            raise ModelError(
+                f"{self.name}: the entry {name!r} uses {function.get_free()}, which it does not take; list them"
+            )
+        reads = tuple(((self._place(symbol), symbol.signal.size),) for symbol in used)
+        guard_places = [Place("local", f"guard_{index}") for index in range(len(conditions))]
+        targets = [
+            *[(place, 1) for place in guard_places],
+            *[(Place("next", key), value.numel()) for key, value in update.items()],
+            *[(Place("local", f"free_{key}"), value.numel()) for key, value in held.free.items()],
+            *[(Place("out", key), value.numel()) for key, value in answers.items()],
+        ]
+        names = tuple(tuple(f"{place.name}_{i}" for i in range(size)) for place, size in targets)
+        said = tuple(item for item in (place_of_call(),) if item)
+        origins: list[tuple[Origin, ...]] = [
+            (Origin("guard", f"guard: {status.name} where it is false", said),) for _, status in guards
+        ]
+        lines = self._lines(update, held.free, answers, used)
+        origins += [tuple(Origin("equation", line, said) for line in own) for own in lines]
+        text = [line for own in lines for line in own]
+        self.equations += [f"{name}: {line}" for line in text]
+        body: list[Statement] = [
+            Evaluate(
+                function, reads, tuple(((place, size),) for place, size in targets), names, tuple(text), tuple(origins)
+            )
+        ]
+        for place, (_, status) in zip(guard_places, guards, strict=True):
+            body.append(Refuse(status, IsSet(Element(place))))
+        body += held.statements
+        body += [
+            Refuse(Status.OVERFLOW, Within(Place("out", signal.name), signal.low, signal.high)) for signal in signals
+        ]
+        body.append(Refuse(Status.OVERFLOW, self.judge_memory(list(update))))
+        taken = tuple(symbol.signal for symbol in inputs)
+        self.entries[name] = Entry(name, taken, tuple(signals), tuple(body), doc, sources=said)
+        self.check()
+
+    def _check_entry(self, name: str, inputs: Sequence[Symbol], guards: Sequence[tuple[Any, Status]]) -> None:
+        """Raise a ModelError where an entry cannot be added; the first one brings `init`."""
         if self._inputs.keys() & {item.name for item in self.memory_signals}:
             raise ModelError(f"{self.name}: an input and a memory field share a name; rename one of them")
         if not self.entries:
@@ -239,67 +360,59 @@ class Block:
         for _, status in guards:
             if status >= 0:
                 raise ModelError(f"{self.name}: a guard of {name!r} has the status {status.name}; give a negative one")
-        update = {
-            symbol.signal.name: self._expression(value, symbol.signal.size)
-            for symbol, value in (following or {}).items()
-        }
-        unknown = set(update) - {item.name for item in self.memory_signals}
-        if unknown:
-            raise ModelError(f"{self.name}: {sorted(unknown)} are no memory fields; declare them with memory()")
-        answers = {
-            check_name("output", key, self.name): self._expression(value) for key, value in (outputs or {}).items()
-        }
-        signals = []
+
+    def _lines(
+        self, update: dict[str, ca.SX], free: dict[str, ca.SX], answers: dict[str, ca.SX], used: list[Symbol]
+    ) -> list[list[str]]:
+        """Return the equations of what an entry evaluates, as text: for each value a line for each element."""
+        pairs = [(ca.SX(symbol), self._spoken(symbol)) for symbol in used]
+
+        def lines(key: str, texts: list[str]) -> list[str]:
+            return [f"{key}{'' if len(texts) == 1 else f'[{i}]'} = {text}" for i, text in enumerate(texts)]
+
+        freed = {f"free_{key}": value for key, value in free.items()}
+        answer = [lines(key, equation_text(value, pairs)) for key, value in (*update.items(), *freed.items())]
         for key, value in answers.items():
-            given = (output_ranges or {}).get(key)
-            low, high = make_range(self.name, f"output {key!r}", given, (-WIDE, WIDE), value.numel())
-            signals.append(Signal(key, value.numel(), (output_units or {}).get(key, ""), low, high))
-        used = [*self.param_symbols(), *self.memory_symbols(), *inputs]
-        conditions = [self._expression(value, 1) for value, _ in guards]
-        function = ca.Function(
-            f"{self.name}_{name}",
-            used,
-            [ca.densify(item) for item in [*conditions, *update.values(), *answers.values()]],
-            {"allow_free": True},
-        )
-        if function.get_free():
-            raise ModelError(
-                f"{self.name}: the entry {name!r} uses {function.get_free()}, which it does not take; list them"
-            )
-        reads = tuple(((self._place(symbol), symbol.signal.size),) for symbol in used)
-        guard_places = [Place("local", f"guard_{index}") for index in range(len(conditions))]
-        targets = [
-            *[(place, 1) for place in guard_places],
-            *[(Place("next", key), value.numel()) for key, value in update.items()],
-            *[(Place("out", key), value.numel()) for key, value in answers.items()],
-        ]
-        names = tuple(tuple(f"{place.name}_{i}" for i in range(size)) for place, size in targets)
-        text = []
-        said = tuple(item for item in (place_of_call(),) if item)
-        origins: list[tuple[Origin, ...]] = [
-            (Origin("guard", f"guard: {status.name} where it is false", said),) for _, status in guards
-        ]
-        for key, value in (*update.items(), *answers.items()):
-            pairs = [(ca.SX(symbol), symbol.signal.name) for symbol in used]
-            lines = equation_text(value, pairs)
-            own = [f"{key}{'' if len(lines) == 1 else f'[{i}]'} = {line}" for i, line in enumerate(lines)]
-            origins.append(tuple(Origin("equation", line, said) for line in own))
-            text += own
-        self.equations += [f"{name}: {line}" for line in text]
-        body: list[Statement] = [
-            Evaluate(
-                function, reads, tuple(((place, size),) for place, size in targets), names, tuple(text), tuple(origins)
-            )
-        ]
-        for place, (_, status) in zip(guard_places, guards, strict=True):
-            body.append(Refuse(status, IsSet(Element(place))))
-        body += [
-            Refuse(Status.OVERFLOW, Within(Place("out", signal.name), signal.low, signal.high)) for signal in signals
-        ]
-        body.append(Refuse(Status.OVERFLOW, self.judge_memory(list(update))))
-        taken = tuple(symbol.signal for symbol in inputs)
-        self.entries[name] = Entry(name, taken, tuple(signals), tuple(body), doc, sources=said)
-        self.check()
+            if key in free:
+                size = value.numel()
+                answer.append(lines(key, [f"free_{key}{f'[{k}]' if size > 1 else ''}, held" for k in range(size)]))
+            else:
+                answer.append(lines(key, equation_text(value, pairs)))
+        return answer
+
+    def _held(self, answers: dict[str, ca.SX], limits: Mapping[str, tuple[Any, Any]]) -> _Held:
+        """Hold outputs between their limits, in `answers`; return what they were, and what says so."""
+        free: dict[str, ca.SX] = {}
+        statements: list[Statement] = []
+        for key, ends in limits.items():
+            if key not in answers:
+                raise ModelError(f"{self.name}: limits= names {key!r}, which is not an output; it has {list(answers)}")
+            size = answers[key].numel()
+            place = Place("local", f"free_{key}")
+            low, high = (self._limit(key, end, size) for end in ends)
+            free[key] = answers[key]
+            bottom, top = (ca.vertcat(*[expression for expression, _ in side]) for side in (low, high))
+            answers[key] = ca.fmin(ca.fmax(free[key], bottom), top)
+            beyond = [Compare(Element(place, k), "<", operand) for k, (_, operand) in enumerate(low)]
+            beyond += [Compare(Element(place, k), ">", operand) for k, (_, operand) in enumerate(high)]
+            statements.append(Refuse(Status.OVERFLOW, Within(place, (-FREE,) * size, (FREE,) * size)))
+            statements.append(When(AnyOf(tuple(beyond)), (Raise(Status.CLAMPED),), (), f"{key} was held at a limit"))
+        return _Held(free, statements)
+
+    def _limit(self, key: str, given: Any, size: int) -> list[tuple[ca.SX, Operand]]:
+        """Return a limit of an output, for each element as an expression and as an operand."""
+        if isinstance(given, Symbol):
+            if all(given is not symbol for symbol in self.param_symbols()) or given.signal.size not in (1, size):
+                raise ModelError(
+                    f"{self.name}: the limit {given.signal.name!r} of {key!r} is not a parameter of 1 or {size} element(s)"
+                )
+            place = self._place(given)
+            at = [0 if given.signal.size == 1 else k for k in range(size)]
+            return [(given[k], Element(place, k)) for k in at]
+        numbers = spread(given, size)
+        if len(numbers) != size or not np.all(np.isfinite(numbers)):
+            raise ModelError(f"{self.name}: the limit of {key!r} is {given!r}; give {size} finite number(s)")
+        return [(ca.SX(item), item) for item in numbers]
 
     def _plain_init(self) -> Entry:
         body: list[Statement] = [
@@ -314,6 +427,11 @@ class Block:
         self._symbols.append(symbol)
         return symbol
 
+    def _spoken(self, symbol: Symbol) -> str:
+        """Return what a symbol is called in the text of an equation."""
+        name = symbol.signal.name
+        return f"params.{name}" if name in self._inputs and self._inputs[name] is not symbol else name
+
     def _place(self, symbol: Symbol) -> Place:
         name = symbol.signal.name
         if self._inputs.get(name) is symbol:
@@ -323,12 +441,15 @@ class Block:
     def param_symbols(self) -> list[Symbol]:
         """Symbols of the declared parameters."""
         names = {signal.name for signal in self.param_signals}
-        return [symbol for symbol in self._symbols if symbol.signal.name in names]
+        return [symbol for symbol in self._not_inputs() if symbol.signal.name in names]
 
     def memory_symbols(self) -> list[Symbol]:
         """Symbols of the declared memory fields."""
         names = {signal.name for signal in self.memory_signals}
-        return [symbol for symbol in self._symbols if symbol.signal.name in names]
+        return [symbol for symbol in self._not_inputs() if symbol.signal.name in names]
+
+    def _not_inputs(self) -> list[Symbol]:
+        return [symbol for symbol in self._symbols if self._inputs.get(symbol.signal.name) is not symbol]
 
     def _expression(self, value: Any, size: int | None = None) -> ca.SX:
         expression = ca.SX(value) if not isinstance(value, (list, tuple)) else ca.vertcat(*value)
@@ -358,9 +479,10 @@ class Block:
         return Signal("state", kind=Kind.GROUP, members=(*self.memory_signals, *groups))
 
     def param_group(self) -> Signal:
-        """Return the parameters as one group signal, parts nested."""
+        """Return the parameters as one group signal, parts nested; a part without parameters is no member."""
         groups = [replace(part.param_group(), name=name) for name, part in self.parts.items()]
-        return Signal("params", kind=Kind.GROUP, members=(*self.param_signals, *groups))
+        used = [group for group in groups if group.members]
+        return Signal("params", kind=Kind.GROUP, members=(*self.param_signals, *used))
 
     def judge_inputs(self, entry: Entry) -> Condition:
         """Return the condition that the inputs of an entry are within their ranges.

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import copy
+import hashlib
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from .block import Block, Scenario
+from .block import Block, Design, Scenario
 from .errors import ModelError
 from .names import check_name
 from .program import Assign, Call, Entry, Place, Refuse, Statement
@@ -36,6 +38,53 @@ def delay(source: str, initial: Any = 0.0) -> Delay:
     return Delay(source, initial)
 
 
+def wires(
+    source: str, target: str, names: Iterable[Any], *, initial: Mapping[Any, Any] | None = None
+) -> dict[str, str | Delay]:
+    """Return the wires between two parts for signals that have the same name in both.
+
+    Parameters
+    ----------
+    source, target : str
+        Parts: the one that has the signals, and the one whose inputs they are.
+    names : iterable of str or Symbol
+        The signals, such as ``plant.states`` or ``plant.inputs``.
+    initial : dict or OperatingPoint, optional
+        Name -> value in the first step: each wire is then one step late, see `delay`.
+
+    Returns
+    -------
+    dict
+        ``"target.name"`` -> ``"source.name"``, or a `delay` of it, for `connect`.
+
+    Raises
+    ------
+    ModelError
+        If `initial` has no value for a name.
+
+    Examples
+    --------
+    >>> from plantc.symbolic.composition import wires
+    >>> wires("estimator", "feedback", ["x", "vx"])
+    {'feedback.x': 'estimator.x', 'feedback.vx': 'estimator.vx'}
+    """
+    started = None if initial is None else {_called(key): value for key, value in initial.items()}
+    answer: dict[str, str | Delay] = {}
+    for name in map(_called, names):
+        if started is not None and name not in started:
+            raise ModelError(
+                f"the wires {source} -> {target}: initial= has no value for {name!r}; it has {', '.join(started) or 'none'}"
+            )
+        start = f"{source}.{name}"
+        answer[f"{target}.{name}"] = start if started is None else delay(start, started[name])
+    return answer
+
+
+def _called(item: Any) -> str:
+    """Return the name of a symbol, of a state of a plant, or of itself."""
+    return item if isinstance(item, str) else str(item.signal.name)
+
+
 def connect(
     blocks: Mapping[str, Block] | Sequence[Block], wires: Mapping[str, str | Delay], name: str, *, doc: str = ""
 ) -> Block:
@@ -57,13 +106,14 @@ def connect(
     -------
     Block
         Entries `init` and `step`. Inputs without a wire become inputs, named ``<part>_<input>``; memory, parameters and
-        outputs are nested by part. The oracle is composed along the same wires if every part has one.
+        outputs are nested by part. The oracle is composed along the same wires if every part has one, and so are designed
+        numbers (`design`), their names prefixed by part.
 
     Raises
     ------
     ModelError
-        If a wire names what does not exist, sizes, kinds or units differ, or parts feed each other in a loop without a
-        delay (the loop is named).
+        If a wire names what does not exist, sizes, kinds or units differ, parts feed each other in a loop without a
+        delay (the loop is named), or parts have different time steps.
     """
     parts = dict(blocks) if isinstance(blocks, Mapping) else {block.name: block for block in blocks}
     if len(parts) != len(blocks):
@@ -200,13 +250,23 @@ class _Composer:
             f"{'.'.join(end)} = {'.'.join(start)}{', one step late' if late_ else ''}"
             for end, (start, late_) in self.wires.items()
         ]
-        block.source_hash = "|".join(self.parts[part].source_hash for part in order) + repr(sorted(block.notes))
+        block.source_hash = _source_hash(block, order)
+        block.sample_time = self._sample_time()
         block.float_bound = max(part.float_bound for part in self.parts.values())
         block.check()
         if all(part.oracle is not None for part in self.parts.values()):
             block.oracle = ComposedOracle(block, order)
         block.scenario = self._scenario()
+        block.design = _composed_design(block, order)
         return block
+
+    def _sample_time(self) -> float | None:
+        """Return the time step that the parts share, None if none of them has one."""
+        times = {part: block.sample_time for part, block in self.parts.items() if block.sample_time is not None}
+        if len(set(times.values())) > 1:
+            said = ", ".join(f"{part} {time:g} s" for part, time in times.items())
+            raise ModelError(f"{self.name}: the parts have different time steps ({said}); a composition has one")
+        return next(iter(times.values()), None)
 
     def _add_delay(self, part: str, signal: Signal, wire: Delay) -> str:
         field = f"delay_{part}_{signal.name}"
@@ -241,7 +301,8 @@ class _Composer:
                 yield "step", values
 
         def memory(rng: Any) -> dict[str, Any]:
-            values = {signal.name: _drawn(rng, signal) for signal in block.memory_signals}
+            starts = {signal.name: signal.default for signal in block.param_signals}
+            values = {item.name: _drawn_near(rng, item, starts[f"{item.name}_0"]) for item in block.memory_signals}
             for part, inner in parts.items():
                 own = (
                     given[part].memory(rng)
@@ -277,6 +338,56 @@ def _drawn(rng: Any, signal: Signal) -> Any:
     if signal.kind is Kind.COUNT:
         return 0
     return rng.uniform(np.array(signal.low), np.array(signal.high))
+
+
+def _drawn_near(rng: Any, signal: Signal, start: Any) -> Any:
+    """Return a value of a delay near its first one: far from it the parts may refuse it."""
+    if signal.kind is not Kind.REAL or start is None:
+        return _drawn(rng, signal)
+    centre, low, high = np.array(start), np.array(signal.low), np.array(signal.high)
+    size = np.minimum(0.1 * (1 + np.abs(centre)), 0.1 * (high - low))
+    return np.clip(centre + size * rng.normal(size=signal.size), low, high)
+
+
+def _source_hash(block: Block, order: list[str]) -> str:
+    return "|".join(block.parts[part].source_hash for part in order) + repr(sorted(block.notes))
+
+
+def _composed_design(block: Block, order: list[str]) -> Design | None:
+    """Return the designed numbers of all parts as those of the whole, or None if there are none."""
+    designs = {part: inner.design for part, inner in block.parts.items() if inner.design is not None}
+    if not designs:
+        return None
+    source = hashlib.sha256(repr([(part, item.source) for part, item in sorted(designs.items())]).encode())
+
+    def own(values: dict[str, Any], part: str) -> dict[str, Any]:
+        answer = {name: values[f"{part}.{name}"] for name in designs[part].values if f"{part}.{name}" in values}
+        missing = sorted(set(designs[part].values) - set(answer))
+        if missing:
+            raise ModelError(f"{block.name}: design.json has no {part}.{missing[0]}; export with --redesign")
+        return answer
+
+    def rebuild(values: dict[str, Any]) -> Block:
+        made = copy.copy(block)
+        made.parts = {
+            part: designs[part].rebuild(own(values, part)) if part in designs else inner
+            for part, inner in block.parts.items()
+        }
+        made.source_hash = _source_hash(made, order)
+        if isinstance(block.oracle, ComposedOracle):
+            made.oracle = ComposedOracle(made, order)
+        made.design = _composed_design(made, order)
+        return made
+
+    def properties(values: dict[str, Any]) -> dict[str, tuple[float, float]]:
+        return {
+            f"{part}: {name}": pair
+            for part, item in designs.items()
+            for name, pair in item.properties(own(values, part)).items()
+        }
+
+    values = {f"{part}.{name}": value for part, item in designs.items() for name, value in item.values.items()}
+    return Design(values, source.hexdigest()[:16], rebuild, properties)
 
 
 class ComposedOracle:

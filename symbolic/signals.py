@@ -39,7 +39,7 @@ class Status(enum.IntEnum):
 STATUS_TEXT = {
     Status.OK: "ok",
     Status.GATED: "innovation beyond the gate: reading not used",
-    Status.CLAMPED: "a variance was held at its ceiling or floor",
+    Status.CLAMPED: "a value (a variance, a command) was held at its limit",
     Status.SKIPPED: "a sensor was refused and skipped: see its own status",
     Status.RECOVERED: "gated too often in a row: P inflated, reading taken without gate",
     Status.BAD_INPUT: "an input is outside its range, or not a number",

@@ -72,7 +72,7 @@ def test_the_version_is_in_the_changelog(project):
 
 # -- imports run one way ----------------------------------------------------------------------------------------------
 
-ORDER = ["plantc.reference", "plantc.symbolic", "plantc.codegen"]
+ORDER = ["plantc.reference", "plantc.symbolic", "plantc.codegen", "plantc.simulation"]
 
 
 @pytest.mark.parametrize("package", ORDER)
@@ -138,7 +138,15 @@ def test_mypy_finds_nothing(needs, project, tmp_path):
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-1000:]
 
 
-DOCTESTED = ["plantc", "plantc.symbolic.plant", "plantc.symbolic.block", "plantc.symbolic.analysis"]
+DOCTESTED = [
+    "plantc",
+    "plantc.symbolic.plant",
+    "plantc.symbolic.block",
+    "plantc.symbolic.analysis",
+    "plantc.symbolic.composition",
+    "plantc.symbolic.controllers",
+    "plantc.symbolic.design",
+]
 
 
 @pytest.mark.parametrize("name", DOCTESTED)

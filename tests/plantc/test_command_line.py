@@ -570,13 +570,17 @@ def test_the_demo_exports_and_draws(model, plantc, tmp_path):
 
 @pytest.mark.slow
 def test_check_proves_what_lies_there(model, plantc, needs, tmp_path):
-    needs("frama-c")
+    needs("frama-c", "gappa")
     name, folder = model(PENDULUM), tmp_path / "generated_c/pendulum_ekf"
     assert plantc("export", f"{name}:pendulum_ekf", *FAST, "--precision", "float").status == 0
     said = plantc("check", folder, "--model", f"{name}:pendulum_ekf", *FAST, "--prove", "--json")
     assert said.status == 0, said.err
     proved = [item for item in one_object(said)["checks"] if item["name"].startswith("proof of ")]
     assert {"proof of step", "proof of is_held"} <= {item["name"] for item in proved}
+    bounds = {(item["entry"], item["name"]): item for item in one_object(said)["rounding"]}
+    assert 0 < bounds["predict", "theta"]["error"] < 1e-5
+    assert bounds["predict", "covariance"]["reason"] == "a kernel's result (Congruence)"
+    assert "rounding errors of one call, bounded by Gappa" in said.err
     source = folder / "src/pendulum_ekf.c"
     whole = source.read_text()
     spoilt = whole.replace("(i < 3U) && held", "(i < 2U) && held")
@@ -585,3 +589,41 @@ def test_check_proves_what_lies_there(model, plantc, needs, tmp_path):
     bad = plantc("check", folder, "--model", f"{name}:pendulum_ekf", *FAST, "--prove")
     assert bad.status == 1
     assert "FAIL proof of is_held" in bad.err
+
+
+# -- tables that a model brings ---------------------------------------------------------------------------------------
+
+TABLE = (
+    LOW_PASS
+    + """
+from plantc.symbolic import Table
+
+low_pass.tables["Decay"] = lambda: Table("Calls until half is left", ("weight", "calls"), [(0.1, 7)], "Counted.")
+"""
+)
+
+
+def test_a_table_of_the_model_is_measured_where_it_is_asked_for(model, plantc, tmp_path):
+    name = model(TABLE)
+    said = plantc("export", name, *FAST, "--tables", "--json")
+    assert said.status == 0, said.err
+    (table,) = one_object(said)["blocks"][0]["tables"]
+    assert (table["title"], table["rows"]) == ("Decay", [[0.1, 7]])
+    assert "Decay: Calls until half is left (report.html)" in said.err
+    assert "<caption>Calls until half is left</caption>" in (tmp_path / "generated_c/low_pass/report.html").read_text()
+    assert "tables" not in one_object(plantc("export", name, *FAST, "--json"))["blocks"][0]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (LOW_PASS, ["model.py: --tables is given, but no block brings a table; leave it out"]),
+        (TABLE.replace("lambda: Table", "lambda: __import__('no_such') or Table"), ["'Decay'", "pip install no_such"]),
+        (TABLE.replace("[(0.1, 7)]", "[(0.1,)]"), ["a row has 1 cells, there are 2 columns"]),
+        (TABLE.replace("[(0.1, 7)]", "[(0.1, float('inf'))]"), ["a cell is not finite; say so in words"]),
+    ],
+)
+def test_a_table_that_cannot_be_made_leaves_nothing(model, plantc, tmp_path, text, words):
+    said = plantc("export", model(text), *FAST, "--tables")
+    fails(said, 2, *words)
+    assert not (tmp_path / "generated_c/low_pass").exists()

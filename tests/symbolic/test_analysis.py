@@ -448,10 +448,10 @@ def test_a_planted_fault_loses_the_rank():
     found = linearise(plant, trim(plant))
     assert found.controllability().rank == 12
     B = found.B @ np.diag([1, 0, 0, 0])
-    assert analysis._hautus(found.A, B, 1e-10)[0] == np.linalg.matrix_rank(control.ctrb(found.A, B), tol=1e-9) < 12
+    assert analysis.hautus(found.A, B, 1e-10)[0] == np.linalg.matrix_rank(control.ctrb(found.A, B), tol=1e-9) < 12
     blind = found.C.copy()
     blind[4] = 0.0  # altitude
-    assert analysis._hautus(found.A.T, blind.T, 1e-10)[0] == 11
+    assert analysis.hautus(found.A.T, blind.T, 1e-10)[0] == 11
 
 
 # -- the linearised plant ---------------------------------------------------------------------------------------------

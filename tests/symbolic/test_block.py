@@ -7,8 +7,9 @@ import sys
 import casadi as ca
 import numpy as np
 import pytest
+from plantc.codegen.crosscheck import cross_check
 from plantc.codegen.layout import flatten
-from plantc.codegen.views import InterpretView
+from plantc.codegen.views import InterpretView, NativeView
 from plantc.symbolic import Block, ModelError, Status, fmin
 
 
@@ -204,3 +205,63 @@ def test_the_hash_knows_which_output_is_which():
         return made
 
     assert block(True).model_hash() != block(False).model_hash()
+
+
+def limited(**changes):
+    block = Block("limited")
+    raw = block.input("raw", size=2, range=(-1e3, 1e3))
+    top = block.parameter("top", 1.0, range=(-10, 10))
+    limits = changes.get("limits", {"command": (-2.0, top)})
+    block.entry("step", inputs=[raw], outputs={"command": 1e28 * raw if "huge" in changes else raw}, limits=limits)
+    return block
+
+
+@pytest.mark.parametrize("view", [InterpretView, NativeView])
+def test_an_output_held_at_a_limit_says_so(view):
+    view = view(limited())
+    params = view.params(top=3.0)
+    memory = view.init(params)
+    for raw, status, expected in (
+        ([0.5, 3.0], Status.OK, [0.5, 3.0]),
+        ([0.5, 3.5], Status.CLAMPED, [0.5, 3.0]),
+        ([-2.5, 3.0], Status.CLAMPED, [-2.0, 3.0]),
+    ):
+        answer = view.call("step", memory, view.inputs("step", {"raw": raw}), params)
+        assert answer.status == status
+        assert answer.outputs["command"].tolist() == expected
+
+
+def test_a_limit_does_not_hide_what_is_no_command():
+    view = NativeView(limited(huge=True))
+    answer = view.call("step", view.init(), view.inputs("step", {"raw": [0.0, 900.0]}), view.params())
+    assert answer.status == Status.OVERFLOW
+
+
+def test_mistakes_of_limits():
+    block = Block("other")
+    stranger = block.parameter("stranger", 1.0)
+    for limits, says in (
+        ({"other": (0, 1)}, r"limits= names 'other', which is not an output; it has \['command'\]"),
+        ({"command": (0, stranger)}, r"the limit 'stranger' of 'command' is not a parameter of 1 or 2 element"),
+        ({"command": ([0, 0, 0], 1)}, r"the limit of 'command' is \[0, 0, 0\]; give 2 finite number"),
+    ):
+        with pytest.raises(ModelError, match=says):
+            limited(limits=limits)
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+def test_all_views_agree_on_a_limit(precision):
+    check = cross_check(limited(), precision, steps=40)
+    assert check.passed, [(item.name, str(item.mismatch)) for item in check.failures]
+    assert check.statuses["CLAMPED"] > 10
+
+
+def test_an_input_and_a_parameter_may_share_a_name():
+    block = Block("shared")
+    level = block.input("level")
+    wanted = block.parameter("level", 2.0)
+    block.entry("step", inputs=[level], outputs={"gap": level - wanted})
+    assert block.equations == ["step: gap = level - params.level"]
+    view = NativeView(block)
+    answer = view.call("step", view.init(), view.inputs("step", {"level": 5.0}), view.params(level=1.0))
+    assert answer.outputs["gap"] == 4.0

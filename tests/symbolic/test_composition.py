@@ -13,6 +13,7 @@ from plantc import (
     delay,
     extended_kalman_filter,
     steady_state_kalman_filter,
+    wires,
 )
 
 
@@ -119,3 +120,52 @@ def test_without_every_oracle_there_is_none():
     ekf = extended_kalman_filter(cart(), initial_variance={"position": 10, "speed": 1})
     assert connect({"ekf": ekf, "low": low_pass()}, {"low.raw": "ekf.position"}, "half").oracle is None
     assert connect({"ekf": ekf}, {}, "alone").oracle is not None
+
+
+def test_wires_join_what_has_the_same_name():
+    plant = cart()
+    assert wires("ekf", "other", plant.states) == {"other.position": "ekf.position", "other.speed": "ekf.speed"}
+    assert wires("a", "b", ["push"], initial={plant.inputs[0]: 2.0}) == {"b.push": delay("a.push", 2.0)}
+    with pytest.raises(ModelError, match=r"the wires a -> b: initial= has no value for 'push'; it has pull"):
+        wires("a", "b", ["push"], initial={"pull": 2.0})
+
+
+def test_parts_share_one_time_step():
+    ekf = extended_kalman_filter(cart(), initial_variance={"position": 10, "speed": 1})
+    assert connect({"ekf": ekf, "low": low_pass()}, {"low.raw": "ekf.position"}, "one").sample_time == 0.1
+    slow = low_pass()
+    slow.sample_time = 0.5
+    with pytest.raises(ModelError, match=r"different time steps \(ekf 0.1 s, low 0.5 s\); a composition has one"):
+        connect({"ekf": ekf, "low": slow}, {"low.raw": "ekf.position"}, "two")
+
+
+def test_designed_numbers_reach_a_composition_of_compositions():
+    steady = steady_state_kalman_filter(cart())
+    inner = connect({"steady": steady}, {}, "inner")
+    outer = connect({"inner": inner, "low": low_pass()}, {"low.raw": "inner.steady.position"}, "outer")
+    assert list(outer.design.values) == ["inner.steady.gain"]
+    assert all(value <= limit for value, limit in outer.design.properties(outer.design.values).values())
+    changed = outer.design.rebuild({"inner.steady.gain": [[0.5], [0.25]]})
+    assert changed.model_hash() != outer.model_hash()
+    assert changed.parts["inner"].parts["steady"].design.values["gain"].tolist() == [[0.5], [0.25]]
+    assert outer.parts["inner"].parts["steady"] is steady
+    check = cross_check(changed.parts["inner"], steps=20)  # the oracle has the new gain, too
+    assert check.passed, [str(item) for item in check.failures]
+    assert any(result.name == "native = reference" for result in check.results)
+
+
+def test_a_part_without_parameters_and_memory_can_be_composed():
+    twice = Block("twice")
+    raw = twice.input("raw", unit="m", range=(-50, 50))
+    twice.entry("step", inputs=[raw], outputs={"value": 2 * raw})
+    block = connect({"twice": twice, "smooth": low_pass()}, {"smooth.raw": "twice.value"}, "chain")
+    view = NativeView(block)
+    answer = view.call("step", view.init(), view.inputs("step", {"twice_raw": 8.0}), view.params())
+    assert answer.memory["smooth"]["smooth"] == 4.0
+    alone = NativeView(connect({"twice": twice}, {}, "alone"))
+    assert (
+        alone.call("step", alone.init(), alone.inputs("step", {"twice_raw": 8.0}), alone.params()).outputs["twice"][
+            "value"
+        ]
+        == 16
+    )
