@@ -6,6 +6,7 @@ Every kernel becomes a block of constants that ends in stores to the candidate m
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -190,7 +191,7 @@ class CoreWriter:
             self._line("")
         if not self.block.memory_group().members:
             self._line("after->unused = 0U;")
-        if not self.entry.checks_params and not any("before" in line for line in (*self.lines, *text)):
+        if not self.entry.checks_params and not any(map(_reads_before, (*self.lines, *text))):
             self._line("(void)before;")
         self.lines += text
         self._bookkeeping("the status to be returned")
@@ -934,6 +935,11 @@ def _mentions_param(item: Any) -> bool:
             return item.flag.place.space == "param"
         case _:
             return False
+
+
+def _reads_before(line: str) -> bool:
+    """Whether a line of C uses the argument `before`: not a field whose name ends so, nor a comment."""
+    return re.search(r"\bbefore(?:->|,|\))", line) is not None and not line.lstrip().startswith(("/*", "*"))
 
 
 def _targets(statement: Statement) -> set[Place]:
