@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol
 
 import casadi as ca
 import numpy as np
@@ -359,7 +359,8 @@ class Block:
             place = Place("local", f"free_{key}")
             free[place.name] = answers[key]
             sides = []
-            for word, relation, end in (("least", "<", ends[0]), ("most", ">", ends[1])):
+            relations: tuple[Literal["<", ">"], ...] = ("<", ">")
+            for word, relation, end in zip(("least", "most"), relations, ends, strict=True):
                 expression, operands = self._limit(key, f"{word}_{key}", end, size)
                 if isinstance(operands[0], Element) and operands[0].place.space == "local":
                     free[operands[0].place.name] = expression
@@ -454,8 +455,9 @@ class Block:
         return Signal("state", kind=Kind.GROUP, members=(*self.memory_signals, *groups))
 
     def param_group(self) -> Signal:
-        """Return the parameters as one group signal, parts nested."""
+        """Return the parameters as one group signal, parts nested; a part without any is left out."""
         groups = [replace(part.param_group(), name=name) for name, part in self.parts.items()]
+        groups = [group for group in groups if group.members]
         return Signal("params", kind=Kind.GROUP, members=(*self.param_signals, *groups))
 
     def judge_inputs(self, entry: Entry) -> Condition:

@@ -13,23 +13,40 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..reference import controllers as reference
-from ..reference.controllers import ControllerOracle, Formula, Range
 from . import quaternions
 from .analysis import OperatingPoint
-from .block import Block, Design, Scenario
+from .block import Block, Design
+from .components import (
+    Calls,
+    Ends,
+    check_rising,
+    declare_limits,
+    ends_of,
+    finish,
+    matrix_of,
+    middle_of,
+    rounded_up,
+    seconds,
+)
 from .design import Gain
 from .errors import ModelError
+from .filters import low_pass, notch, rate_limiter, saturation
+from .linear_systems import state_space, transfer_function
 from .plant import Plant, Symbol, wrap
-from .program import Compare, Element, Place, Refuse
-from .signals import WIDE, Signal, Status, make_range
+from .signals import Signal
+
+__all__ = [
+    "low_pass",
+    "notch",
+    "pid",
+    "rate_limiter",
+    "saturation",
+    "state_feedback",
+    "state_space",
+    "transfer_function",
+]
 
 Array = NDArray[Any]
-Calls = Callable[[Any, int], Iterator[tuple[str, dict[str, Any]]]]
-
-Ends = tuple[float, float]
-
-HIGHEST_FREQUENCY = 0.45
-"""Of a filter's parameters, in units of 1 / dt: just below half of it, where a tangent has a pole."""
 
 LARGEST_GAIN = 1.0e6
 """Range of the elements of a gain; wider where the gain itself is."""
@@ -94,7 +111,7 @@ def state_feedback(
     where = OperatingPoint.at(plant, point)
     if not plant.inputs:
         raise ModelError(f"{name}: the plant {plant.name!r} has no input to act on; declare one with input()")
-    K = gain.rounded() if isinstance(gain, Gain) else _matrix(name, "gain", gain)
+    K = gain.rounded() if isinstance(gain, Gain) else matrix_of(name, "gain", gain)
     shape = (plant.u.numel(), plant.error_size)
     if K.shape != shape:
         raise ModelError(
@@ -122,7 +139,7 @@ def state_feedback(
         for state in plant.states
     )
     outputs = tuple((item.name, item.size, np.array(item.low), np.array(item.high)) for item in signals)
-    _finish(block, {"step": reference.StateFeedback(kinds, outputs, saturate)}, _around(plant, where, K, saturate))
+    finish(block, {"step": reference.StateFeedback(kinds, outputs, saturate)}, _around(plant, where, K, saturate))
     if isinstance(gain, Gain):
         block.design = _design(block, gain)
     return block
@@ -234,241 +251,6 @@ def _design(block: Block, gain: Gain) -> Design:
     return Design({"gain": gain.rounded()}, gain.source(), rebuild, properties)
 
 
-# -- small blocks of one signal ---------------------------------------------------------------------------------------
-
-
-def saturation(
-    low: float, high: float, *, name: str = "saturation", unit: str = "", range: Ends | None = None, doc: str = ""
-) -> Block:
-    """Return a block that holds a signal between two limits; where that changes it the status is CLAMPED.
-
-    Parameters
-    ----------
-    low, high : float
-        The limits: run-time parameters `minimum` and `maximum`; `init` refuses them in the wrong order (BAD_PARAM).
-    name, doc : str
-        Name and meaning of the block.
-    unit : str
-        Of the signal.
-    range : (low, high), optional
-        Of the input `raw`, and of the limits. Default -1e6 .. 1e6.
-
-    Returns
-    -------
-    Block
-        Input `raw`, output `limited`, no memory.
-    """
-    ends = _ends(name, range)
-    block = Block(name, doc=doc or "holds a signal between two limits")
-    raw = block.input("raw", unit=unit, range=ends)
-    _limits(block, low, high, unit, ends)
-    bottom, top = block.param_symbols()
-    block.entry(
-        "step", inputs=[raw], outputs={"limited": raw}, output_units={"limited": unit},
-        output_ranges={"limited": ends}, limits={"limited": (bottom, top)},
-    )  # fmt: skip
-    _check_rising(block)
-    reach = 2 * (np.abs(low) + np.abs(high)) + high - low
-    wide = max(ends[0], low - reach), min(ends[1], high + reach)
-    return _finish(block, {"step": reference.saturation}, _wandering({"raw": wide}), rising=(("minimum", "maximum"),))
-
-
-def rate_limiter(
-    rise: float,
-    fall: float | None = None,
-    *,
-    dt: float,
-    name: str = "rate_limiter",
-    unit: str = "",
-    range: Ends | None = None,
-    initial: float = 0.0,
-    doc: str = "",
-) -> Block:
-    """Return a block that follows a signal no faster than allowed; where it lags the status is CLAMPED.
-
-    Parameters
-    ----------
-    rise, fall : float
-        Largest rate upwards (at least 0) and downwards (at most 0; default -rise), per second: run-time parameters.
-    dt : float
-        Seconds per step.
-    name, doc : str
-        Name and meaning of the block.
-    unit : str
-        Of the signal.
-    range : (low, high), optional
-        Of the input `raw` and of the output. Default -1e6 .. 1e6.
-    initial : float
-        Where it starts; the run-time parameter `last_0`.
-
-    Returns
-    -------
-    Block
-        Input `raw`, output `limited`.
-    """
-    down = -rise if fall is None else fall
-    if not (rise >= 0 and down <= 0):
-        raise ModelError(f"{name}: rise is {rise:g} and fall {down:g}; give rise as zero or more, fall as zero or less")
-    ends = _ends(name, range)
-    step = _seconds(name, dt)
-    rate = f"{unit}/s" if unit else ""
-    fastest = 2 * (ends[1] - ends[0]) / step
-    block = Block(name, doc=doc or "follows a signal no faster than allowed")
-    raw = block.input("raw", unit=unit, range=ends)
-    up = block.parameter("rise", rise, unit=rate, range=(0, fastest), doc="largest rate upwards")
-    fallen = block.parameter("fall", down, unit=rate, range=(-fastest, 0), doc="largest rate downwards")
-    last = block.memory("last", initial=initial, unit=unit, range=ends, doc="last output")
-    least, most = last + step * fallen, last + step * up
-    block.entry(
-        "step", inputs=[raw], following={last: ca.fmin(ca.fmax(raw, least), most)}, outputs={"limited": raw},
-        output_units={"limited": unit}, output_ranges={"limited": ends}, limits={"limited": (least, most)},
-    )  # fmt: skip
-    block.sample_time = step
-    near = step * max(rise, -down)
-    wide = max(ends[0], initial - 40 * near - 1e-3), min(ends[1], initial + 40 * near + 1e-3)
-    return _finish(
-        block, {"step": reference.RateLimiter(step)}, _wandering({"raw": wide}), memory=_uniform({"last": wide})
-    )
-
-
-def low_pass(
-    cutoff: float,
-    *,
-    dt: float,
-    order: int = 1,
-    name: str = "low_pass",
-    unit: str = "",
-    range: Ends | None = None,
-    initial: float = 0.0,
-    doc: str = "",
-) -> Block:
-    """Return a Butterworth low-pass filter of first or second order.
-
-    Parameters
-    ----------
-    cutoff : float
-        Frequency at which half the power passes, in Hz, up to 0.45 / dt: a run-time parameter.
-    dt : float
-        Seconds per step.
-    order : {1, 2}
-        More: see `transfer_function`.
-    name, doc : str
-        Name and meaning of the block.
-    unit : str
-        Of the signal.
-    range : (low, high), optional
-        Of the input `raw`. Default -1e6 .. 1e6.
-    initial : float
-        The signal before the first step: run-time parameter `smooth_0`.
-
-    Returns
-    -------
-    Block
-        Input `raw`, output `filtered`. It may be retuned while it runs.
-
-    Notes
-    -----
-    The bilinear transform of the analogue filter with the cutoff prewarped, as trapezoidal integrators (Zavalishin, "The
-    Art of VA Filter Design", 2012, ch. 3 and 4): what is stored does not depend on the coefficients, so that a change of
-    the cutoff does not disturb the output.
-    """
-    if order not in (1, 2):
-        raise ModelError(f"{name}: the order is {order!r}; give 1 or 2, or use transfer_function for more")
-    ends, step = _ends(name, range), _seconds(name, dt)
-    block = Block(name, doc=doc or f"low-pass filter, Butterworth of order {order}")
-    raw = block.input("raw", unit=unit, range=ends)
-    frequency = _frequency(block, "cutoff", cutoff, step, "where half the power passes")
-    g = ca.tan((math.pi * step) * frequency)
-    inner = _spread_range(ends, 10.0)
-    smooth = block.memory("smooth", initial=initial, unit=unit, range=inner, doc="what the last integrator stores")
-    if order == 1:
-        filtered = (smooth + g * raw) / (1 + g)
-        following = {smooth: 2 * filtered - smooth}
-    else:
-        half = 0.5 * (inner[1] - inner[0])
-        band = block.memory("band", unit=unit, range=(-half, half), doc="what the first integrator stores")
-        damping = math.sqrt(2.0)
-        middle = (band + g * (raw - smooth)) / (1 + g * (damping + g))
-        filtered = smooth + g * middle
-        following = {smooth: 2 * filtered - smooth, band: 2 * middle - band}
-    block.entry(
-        "step", inputs=[raw], following=following, outputs={"filtered": filtered}, output_units={"filtered": unit},
-        output_ranges={"filtered": inner},
-    )  # fmt: skip
-    block.sample_time = step
-    return _finish_filter(block, reference.LowPass(step, order), ends)
-
-
-def notch(
-    frequency: float,
-    width: float,
-    *,
-    dt: float,
-    depth: float = 1.0,
-    name: str = "notch",
-    unit: str = "",
-    range: Ends | None = None,
-    initial: float = 0.0,
-    doc: str = "",
-) -> Block:
-    """Return a filter that takes out one frequency.
-
-    Parameters
-    ----------
-    frequency : float
-        Centre, in Hz: a run-time parameter, from a tenth of it to ten times (at most 0.45 / dt).
-    width : float
-        Of the band in which less than half the power passes (at depth 1), in Hz: a run-time parameter, likewise.
-    dt : float
-        Seconds per step.
-    depth : float
-        Of the signal at the centre, the share that is taken out, 0 .. 1: a run-time parameter.
-    name, doc : str
-        Name and meaning of the block.
-    unit : str
-        Of the signal.
-    range : (low, high), optional
-        Of the input `raw`. Default -1e6 .. 1e6.
-    initial : float
-        The signal before the first step: run-time parameter `smooth_0`.
-
-    Returns
-    -------
-    Block
-        Input `raw`, output `filtered`. It may be retuned while it runs.
-
-    Notes
-    -----
-    At depth 1 the filter of `scipy.signal.iirnotch` with Q = frequency / width: the bilinear transform of the analogue
-    filter, frequency and width in their place after it, as trapezoidal integrators (see `low_pass`).
-    """
-    ends, step = _ends(name, range), _seconds(name, dt)
-    block = Block(name, doc=doc or "takes out one frequency")
-    raw = block.input("raw", unit=unit, range=ends)
-    centre = _frequency(block, "frequency", frequency, step, "centre", decade=True)
-    across = _frequency(
-        block, "width", width, step, "of the band in which less than half the power passes", decade=True
-    )
-    share = block.parameter("depth", depth, range=(0, 1), doc="share of the signal that is taken out at the centre")
-    g, beta = ca.tan((math.pi * step) * centre), ca.tan((math.pi * step) * across)
-    b = beta * (1 + g * g) / g
-    # at the centre both integrators swing 1/b times as far as the signal
-    narrowest = math.tan(math.pi * step * block.param_signals[1].low[0])
-    inner = _spread_range(ends, 10.0 + 2.0 / narrowest)
-    half = 0.5 * (inner[1] - inner[0])
-    smooth = block.memory("smooth", initial=initial, unit=unit, range=inner, doc="what the last integrator stores")
-    band = block.memory("band", unit=unit, range=(-half, half), doc="what the first integrator stores")
-    middle = (band + g * (raw - smooth)) / (1 + g * (b + g))
-    low = smooth + g * middle
-    block.entry(
-        "step", inputs=[raw], following={smooth: 2 * low - smooth, band: 2 * middle - band},
-        outputs={"filtered": raw - share * b * middle}, output_units={"filtered": unit},
-        output_ranges={"filtered": inner},
-    )  # fmt: skip
-    block.sample_time = step
-    return _finish_filter(block, reference.Notch(step), ends)
-
-
 # -- PID --------------------------------------------------------------------------------------------------------------
 
 
@@ -536,8 +318,8 @@ def pid(
     >>> list(heater.entries)
     ['init', 'step', 'track']
     """
-    step, ends = _seconds(name, dt), _ends(name, range)
-    low, high = _ends(name, command_range)
+    step, ends = seconds(name, dt), ends_of(name, range)
+    low, high = ends_of(name, command_range)
     block = Block(name, doc=doc or "PID controller with anti-windup")
     r = block.input("set_point", unit=unit, range=ends)
     y = block.input("measured", unit=unit, range=ends)
@@ -552,11 +334,11 @@ def pid(
         command_unit,
         unit,
     )
-    _limits(block, low, high, command_unit, (low, high))
+    declare_limits(block, low, high, command_unit, (low, high))
     bottom, top = block.param_symbols()[-2:]
     size = max(abs(ends[0]), abs(ends[1]))
     slopes = abs(derivative) / (times[0] + step) * 2 * (1 + abs(derivative_weight))
-    reach = _rounded_up(
+    reach = rounded_up(
         100 * (max(abs(low), abs(high)) + size * (abs(proportional) * (1 + abs(set_point_weight)) + slopes))
     )
     I = block.memory("integral_part", unit=command_unit, range=(-reach, reach))  # noqa: E741 - the field's letter
@@ -582,9 +364,9 @@ def pid(
         doc="Take over without a jump: the next step goes on from the command that was applied.",
     )  # fmt: skip
     block.sample_time = step
-    _check_rising(block)
+    check_rising(block)
     law = reference.Pid(step)
-    return _finish(
+    return finish(
         block, {"step": law.step, "track": law.track}, _regulating(proportional, ends, (low, high)),
         rising=(("minimum", "maximum"),), memory=_pid_memory(ends, (low, high)),
     )  # fmt: skip
@@ -619,7 +401,7 @@ def _pid_parameters(
 ) -> list[Symbol]:
     """Declare gains, times and weights."""
     per = f"{command_unit}/({unit})" if command_unit and unit else ""
-    largest = _rounded_up(1e3 * max(1.0, *map(abs, gains)))
+    largest = rounded_up(1e3 * max(1.0, *map(abs, gains)))
     made = [
         block.parameter("proportional", gains[0], unit=per, range=(-largest, largest), doc="gain of the error"),
         block.parameter(
@@ -629,7 +411,7 @@ def _pid_parameters(
             "derivative", gains[2], unit=per and f"{per} s", range=(-largest, largest), doc="gain of its slope"
         ),
     ]
-    longest = _rounded_up(1e3 * max(1.0, dt, *times))
+    longest = rounded_up(1e3 * max(1.0, dt, *times))
     made.append(block.parameter("filter_time", times[0], unit="s", range=(0, longest), doc="of the slope"))
     made.append(block.parameter("set_point_weight", weights[0], range=(-10, 10), doc="of the set point in the error"))
     made.append(block.parameter("derivative_weight", weights[1], range=(-10, 10), doc="of the set point in the slope"))
@@ -640,7 +422,7 @@ def _pid_parameters(
 
 def _regulating(kp: float, ends: Ends, command: Ends) -> Calls:
     """Return steps with readings about a wandering set point, at times a hand that takes over."""
-    centre, half = _middle(ends, 10.0)
+    centre, half = middle_of(ends, 10.0)
     error = min(half, (command[1] - command[0]) / abs(kp) if kp else half)
 
     def calls(rng: Any, steps: int) -> Iterator[tuple[str, dict[str, Any]]]:
@@ -659,7 +441,7 @@ def _regulating(kp: float, ends: Ends, command: Ends) -> Calls:
 
 
 def _pid_memory(ends: Ends, command: Ends) -> Callable[[Any], dict[str, Any]]:
-    centre, half = _middle(ends, 10.0)
+    centre, half = middle_of(ends, 10.0)
 
     def memory(rng: Any) -> dict[str, Any]:
         middle, span = 0.5 * (command[0] + command[1]), command[1] - command[0]
@@ -672,132 +454,3 @@ def _pid_memory(ends: Ends, command: Ends) -> Callable[[Any], dict[str, Any]]:
         }
 
     return memory
-
-
-# -- what they share --------------------------------------------------------------------------------------------------
-
-
-def _range(signal: Signal) -> Range:
-    return Range(signal.name, signal.low, signal.high)
-
-
-def _finish(
-    block: Block,
-    formulas: Mapping[str, Formula],
-    calls: Calls,
-    *,
-    rising: tuple[tuple[str, str], ...] = (),
-    memory: Callable[[Any], dict[str, Any]] | None = None,
-) -> Block:
-    """Give a block its oracle and its scenario."""
-    entries = {name: entry for name, entry in block.entries.items() if name != "init"}
-    block.oracle = ControllerOracle(
-        dict(formulas),
-        tuple(_range(signal) for signal in block.memory_signals),
-        tuple(_range(signal) for signal in block.param_signals),
-        {name: tuple(_range(signal) for signal in entry.inputs) for name, entry in entries.items()},
-        {name: tuple(_range(signal) for signal in entry.outputs) for name, entry in entries.items()},
-        rising,
-    )
-    block.scenario = Scenario(calls, memory or (lambda rng: {}))
-    return block
-
-
-def _matrix(owner: str, what: str, given: Any) -> Array:
-    """Return what a user gave as a matrix of finite numbers."""
-    try:
-        matrix = np.atleast_2d(np.asarray(given, dtype=float))
-    except (TypeError, ValueError):
-        raise ModelError(f"{owner}: {what} is {given!r}; give a matrix of numbers") from None
-    if matrix.ndim != 2 or not np.all(np.isfinite(matrix)):
-        raise ModelError(f"{owner}: {what} is no matrix of finite numbers; mend it")
-    return matrix
-
-
-def _ends(owner: str, given: Any) -> Ends:
-    """Return a range as two floats; the default is that of every signal."""
-    low, high = make_range(owner, "the signal", given, (-WIDE, WIDE), 1)
-    return low[0], high[0]
-
-
-def _seconds(owner: str, dt: Any) -> float:
-    if not (isinstance(dt, (int, float)) and math.isfinite(dt) and dt > 0):
-        raise ModelError(f"{owner}: dt is {dt!r}; give the seconds per step as a positive number")
-    return float(dt)
-
-
-def _limits(block: Block, low: float, high: float, unit: str, ends: Ends) -> None:
-    """Declare the parameters `minimum` and `maximum`."""
-    if not low < high:
-        raise ModelError(f"{block.name}: the limits are {low:g} and {high:g}; give the lower one first")
-    block.parameter("minimum", low, unit=unit, range=ends, doc="lower limit")
-    block.parameter("maximum", high, unit=unit, range=ends, doc="upper limit, not below the lower one")
-
-
-def _check_rising(block: Block) -> None:
-    """Let `init` refuse limits in the wrong order."""
-    init = block.entries["init"]
-    rising = Compare(Element(Place("param", "minimum")), "<=", Element(Place("param", "maximum")))
-    block.entries["init"] = replace(init, body=(*init.body, Refuse(Status.BAD_PARAM, rising)))
-
-
-def _frequency(block: Block, name: str, value: float, dt: float, doc: str, *, decade: bool = False) -> Symbol:
-    """Declare a frequency in Hz, below 0.45 / dt: there the bilinear transform still has digits."""
-    highest = HIGHEST_FREQUENCY / dt
-    if not 0 < value <= highest:
-        raise ModelError(
-            f"{block.name}: the {name} is {value:g} Hz; give more than 0 and at most {highest:g} Hz ({HIGHEST_FREQUENCY} / dt)"
-        )
-    low, high = (0.1 * value, min(10 * value, highest)) if decade else (1e-6 * highest, highest)
-    low = min(low, value)
-    return block.parameter(name, value, unit="Hz", range=(low, high), doc=doc)
-
-
-def _middle(ends: Ends, widest: float = math.inf) -> Ends:
-    """Return centre and half width of a range, of that part of it that is not absurdly wide."""
-    low, high = (max(ends[0], -widest), min(ends[1], widest)) if ends[0] < widest and ends[1] > -widest else ends
-    return 0.5 * (low + high), 0.5 * (high - low)
-
-
-def _spread_range(ends: Ends, factor: float) -> Ends:
-    """Return a range about the same centre, wider by a factor."""
-    centre, half = _middle(ends)
-    reach = _rounded_up(factor * half)
-    return centre - reach, centre + reach
-
-
-def _rounded_up(value: float) -> float:
-    """Return the next number of one digit: the same on any machine, whatever its last bits."""
-    if value <= 0:
-        return 1.0
-    power = 10.0 ** math.floor(math.log10(value))
-    return float(f"{math.ceil(value / power * (1 - 1e-9)) * power:.6g}")
-
-
-def _wandering(ranges: Mapping[str, Ends]) -> Calls:
-    """Return steps in which every input wanders over its range, smoothly."""
-
-    def calls(rng: Any, steps: int) -> Iterator[tuple[str, dict[str, Any]]]:
-        yield "init", {}
-        drive = np.zeros(len(ranges))
-        for _ in range(steps):
-            drive = 0.8 * drive + 0.6 * rng.normal(size=len(drive))
-            inputs = {}
-            for (name, ends), value in zip(ranges.items(), drive, strict=True):
-                centre, half = _middle(ends)
-                inputs[name] = float(np.clip(centre + half * math.tanh(value), *ends))
-            yield "step", inputs
-
-    return calls
-
-
-def _uniform(ranges: Mapping[str, Ends]) -> Callable[[Any], dict[str, Any]]:
-    """Return a memory whose fields are drawn from these ranges."""
-    return lambda rng: {name: rng.uniform(*ends) for name, ends in ranges.items()}
-
-
-def _finish_filter(block: Block, formula: Formula, ends: Ends) -> Block:
-    """Give a filter its oracle, and a scenario in which what it stores is of the size of its input."""
-    half = _middle(ends)[1]
-    stores = {signal.name: ends if signal.name == "smooth" else (-half, half) for signal in block.memory_signals}
-    return _finish(block, {"step": formula}, _wandering({"raw": ends}), memory=_uniform(stores))
