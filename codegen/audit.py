@@ -13,6 +13,7 @@ from .analysers import audit_clang, audit_gcc
 from .exported import AuditError, ExportedFolder, MissingTool, open_folder, version_of
 from .findings import CheckResult, Findings
 from .misra import audit_misra
+from .report import with_audit
 from .sanitizers import audit_libfuzzer, audit_sanitizers, audit_uninitialised
 
 AUDIT = "audit.json"
@@ -147,7 +148,7 @@ def audit_folder(
 
 
 def write_audit(result: AuditResult) -> None:
-    """Write a folder's audit.json; results of other audits of the very same files are kept."""
+    """Write a folder's audit.json, and show it in its report.html; results of other audits of the very same files are kept."""
     path = result.folder.path / AUDIT
     fresh = result.as_dict()
     try:
@@ -165,6 +166,9 @@ def write_audit(result: AuditResult) -> None:
             if name not in fresh["audits"]
         }
     path.write_text(json.dumps(fresh, indent=2) + "\n", encoding="utf-8")
+    page = result.folder.path / "report.html"
+    if page.is_file():
+        page.write_text(with_audit(page.read_text(encoding="utf-8"), result.folder.name, fresh), encoding="utf-8")
 
 
 __all__ = ["AUDIT", "AUDITS", "AuditError", "AuditResult", "audit_folder", "write_audit"]

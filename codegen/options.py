@@ -23,6 +23,8 @@ class Options:
         Whose ``sin``, ``exp`` ... the C calls: those that plantc emits (the same bits everywhere), or the C library's.
     flash, ram : int
         Bytes that the targets have; 0: as they stand in `TARGETS`.
+    tables : bool
+        Whether what the block brings to be measured on demand is measured: its ``tables``.
     """
 
     precision: Precision = field(default_factory=lambda: Precision("double"))
@@ -31,3 +33,4 @@ class Options:
     mathematics: str = "own"
     flash: int = 0
     ram: int = 0
+    tables: bool = False

@@ -8,7 +8,7 @@ import platform
 import subprocess
 import tempfile
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,7 @@ from .compiler import contraction_flag, find_compiler
 from .coverage import measure_coverage
 from .crosscheck import CrossCheck, cross_check, make_probes, make_views
 from .emit import CText, emit, generator_version, templates
+from .exported import MissingTool
 from .findings import CheckResult, Findings, Mismatch
 from .fmu import build_fmu, check_fmu, check_fmu_is_possible
 from .folder import MEASURED, FolderError, check_folder_is_free, read_manifest, write_files, write_folder
@@ -113,6 +114,7 @@ MEASUREMENTS: list[tuple[str, Measurement]] = [
     ("gates", lambda draft: measure_gates(draft.block, draft.options, draft.text, draft.check)),
     ("coverage", lambda draft: _coverage(draft)),
     ("targets", lambda draft: measure_targets(draft.block, draft.options, draft.text, draft.check)),
+    ("tables", lambda draft: measure_tables(draft.block) if draft.options.tables else Findings()),
 ]
 """What every export that passed its cross-check is measured by, in this order: (what is being done, how)."""
 
@@ -164,6 +166,25 @@ def _coverage(draft: Draft) -> Findings:
     return measure_coverage(
         draft.block, draft.options.precision.name, draft.files, draft.text.provenance, draft.check.calls
     )
+
+
+def measure_tables(block: Block) -> Findings:
+    """Measure what a block brings to be measured on demand.
+
+    Raises
+    ------
+    MissingTool
+        If that needs a Python module which is not installed.
+    """
+    rows = []
+    for title, measure in block.tables.items():
+        try:
+            rows.append({"title": title, **asdict(measure())})
+        except ModuleNotFoundError as error:
+            raise MissingTool(
+                f"{block.name}: the table {title!r} needs the Python module {error.name}; install it (pip install {error.name})"
+            ) from None
+    return Findings([], {"tables": rows})
 
 
 def _rare_calls(block: Block, precision: str, native: NativeView | None = None) -> CrossCheck:
@@ -239,7 +260,7 @@ def export(
         check_fmu_is_possible(block)
     report("compile", 0, 1)
     key = ""
-    if cached and native is None and not fmu and is_cacheable(block):
+    if cached and native is None and not (fmu or chosen.tables) and is_cacheable(block):
         key = key_of(block, emit(block, precision, mathematics=chosen.mathematics), chosen, steps)
         before = kept(key)
         if before is not None:

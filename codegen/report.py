@@ -22,15 +22,18 @@ FIELDS_SHOWN = 12
 
 _SHOWN = frozenset(
     "name model precision passed compiler machine memory_bytes parameter_bytes checks statuses_reached targets coverage "
-    "symbols gates conditioning mathematics".split()
+    "symbols gates tables mathematics".split()
 )
 """Keys of the evidence that have a section of their own; any other is shown as it is."""
+
+CLASSES = {"passed": "ok", "failed": "fail", "not judged": "open"}
+"""Verdict -> class of its cell."""
 
 Figure = dict[str, str]
 
 
 @lru_cache
-def _page() -> jinja2.Template:
+def _template(name: str) -> jinja2.Template:
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("plantc.codegen", "templates"),
         trim_blocks=True,
@@ -39,7 +42,7 @@ def _page() -> jinja2.Template:
         autoescape=True,
     )
     environment.filters["number"] = _number
-    return environment.get_template("report.html.j2")
+    return environment.get_template(name)
 
 
 def report_html(
@@ -63,12 +66,12 @@ def report_html(
         What lies beside it as audit.json.
     """
     checks = list(evidence["checks"])
-    return _page().render(
+    return _template("report.html.j2").render(
         manifest=manifest,
         evidence=evidence,
         checks=checks,
         failed=[item for item in checks if item["verdict"] == "failed"],
-        classes={"passed": "ok", "failed": "fail", "not judged": "open"},
+        classes=CLASSES,
         unjudged=[item for item in checks if item["verdict"] == "not judged"],
         calls=sum(int(item["calls"]) for item in checks),
         notes=block.notes,
@@ -79,8 +82,8 @@ def report_html(
         coverage=evidence.get("coverage"),
         symbols=evidence.get("symbols"),
         gates=evidence.get("gates"),
-        conditioning=evidence.get("conditioning"),
-        audit=audit,
+        tables=evidence.get("tables", []),
+        audit_section=audit_html(manifest["name"], audit),
         others={key: value for key, value in evidence.items() if key not in _SHOWN},
         statuses=[
             {"name": status.name, "value": int(status), "text": STATUS_TEXT[status]}
@@ -88,6 +91,55 @@ def report_html(
         ],
         reached=evidence.get("statuses_reached", {}),
     )
+
+
+AUDIT_BEGINS, AUDIT_ENDS = "<!-- what plantc audit found -->", "<!-- end of what plantc audit found -->"
+
+
+def audit_html(name: str, audit: Mapping[str, Any] | None) -> str:
+    """Return the section of a page that shows an audit.json, or says that there is none; marks are around it.
+
+    Parameters
+    ----------
+    name : str
+        Of the block.
+    audit : dict, optional
+        What lies beside the page as audit.json.
+    """
+    found = audit or {}
+    fuzzed = []
+    for key, facts in found.get("audits", {}).items():
+        for what in ("random_calls", "search"):
+            if isinstance(facts.get(what), Mapping):
+                fuzzed.append({"audit": key, **facts[what]})
+    section = _template("report_audit.html.j2").render(
+        name=name,
+        audit=found,
+        classes=CLASSES,
+        fuzzed=fuzzed,
+        calls=sum(int(item.get("calls", 0)) for item in fuzzed),
+        lost=sum(int(item.get("lost", 0)) for item in fuzzed),
+        deviations=found.get("audits", {}).get("misra", {}).get("deviations", []),
+    )
+    return f"{AUDIT_BEGINS}\n{section}{AUDIT_ENDS}"
+
+
+def with_audit(page: str, name: str, audit: Mapping[str, Any]) -> str:
+    """Return a page with an audit in the place where it shows one; a page without that place as it is.
+
+    Parameters
+    ----------
+    page : str
+        A report.html.
+    name : str
+        Of the block.
+    audit : dict
+        What lies beside it as audit.json.
+    """
+    if page.count(AUDIT_BEGINS) != 1 or page.count(AUDIT_ENDS) != 1:
+        return page
+    before, _, rest = page.partition(AUDIT_BEGINS)
+    return before + audit_html(name, audit) + rest.partition(AUDIT_ENDS)[2]
 
 
 def _number(value: Any) -> str:

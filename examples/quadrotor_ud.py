@@ -1,12 +1,12 @@
 """The quadrotor with six sensors, positions and angles: a filter that keeps its covariance as factors U D U'.
 
 In single precision a sharp sensor after a vague beginning is where a covariance stops being one; its factors stay positive
-(Bierman 1977). `benchmarks/conditioning.py` measures that.
+(Bierman 1977). `plantc export --tables` measures that, see `plantc.examples.conditioning`.
 """
 
 import casadi as ca
 from plantc.examples.quadrotor_ekf import hover, quadrotor
-from plantc.symbolic import Plant, vertcat
+from plantc.symbolic import Plant, Table, vertcat
 from plantc.symbolic.estimators import extended_kalman_filter
 
 quadrotor6 = Plant("quadrotor6", doc="quadrotor of Meda-Campana 2018 of which positions and angles are measured")
@@ -34,3 +34,13 @@ quadrotor_ud = extended_kalman_filter(
     form="ud",
     name="quadrotor_ud",
 )
+
+
+def conditioning() -> Table:
+    """Return how long this filter in single precision keeps its covariance, beside other forms (takes a minute)."""
+    from plantc.examples.conditioning import table
+
+    return table()
+
+
+quadrotor_ud.tables["Conditioning"] = conditioning

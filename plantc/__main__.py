@@ -235,6 +235,7 @@ def _derived_text(answer: dict[str, Any]) -> list[str]:
 )
 @click.option("--no-cache", is_flag=True, help="Do all work anew, even if the same export was done before.")
 @click.option("--fmu", is_flag=True, help="Write an FMI 2.0 co-simulation unit of the same C too, BLOCK.fmu.")
+@click.option("--tables", is_flag=True, help="Also measure the tables that the model brings; may take minutes.")
 @_target
 @click.option(
     "--contract",
@@ -278,6 +279,8 @@ def export_command(
     def body() -> NoReturn:
         blocks, path = models.blocks_of(model)
         options = _options(precision, **machine)
+        if options.tables and not any(block.tables for block in blocks):
+            raise UsageError(f"{path}: --tables is given, but no block brings a table; leave it out")
         if jobs > 1 and len(blocks) > 1:
             for block in blocks:  # the one file that all of them would write
                 with_design(block, path.parent / "design.json", redesign=redesign)
@@ -313,12 +316,12 @@ def _finish_jobs(session: Session, outcomes: list[parallel.Outcome]) -> NoReturn
 
 
 def _options(
-    precision: str, targets: tuple[str, ...], contract: str, mathematics: str, flash: int, ram: int
+    precision: str, targets: tuple[str, ...], contract: str, mathematics: str, flash: int, ram: int, tables: bool
 ) -> Options:
     names = tuple(dict.fromkeys(targets))
     if (flash or ram) and set(names) <= {"host"}:
         raise UsageError("--flash and --ram are sizes of a target, and there is none; give --target, or leave them out")
-    return Options(Precision(precision), names, contract == "on", mathematics, flash=flash, ram=ram)
+    return Options(Precision(precision), names, contract == "on", mathematics, flash=flash, ram=ram, tables=tables)
 
 
 def _export_all(
@@ -419,6 +422,11 @@ def check_command(
 
 def _proved(session: Session, block: Block, folder: Path, manifest: dict[str, Any]) -> list[CheckResult]:
     """Prove, and return a check for each function; both tools are asked for first."""
+    if manifest.get("contract") == "on":
+        raise UsageError(
+            f"{folder}: it was exported with --contract on, and what a compiler may fuse is not what --prove looks at; "
+            "export it with --contract off"
+        )
     for name, package in (("frama-c", "frama-c-base"), ("gappa", "gappa")):
         tool(name, package)
     session.say(f"{block.name}: Frama-C, function by function; a filter of twelve states takes minutes")
@@ -427,9 +435,6 @@ def _proved(session: Session, block: Block, folder: Path, manifest: dict[str, An
 
 def _bounded(session: Session, block: Block, manifest: dict[str, Any]) -> list[Bound]:
     """Bound what one call loses to rounding, and print it."""
-    if manifest.get("contract") == "on":
-        session.say("  rounding: no bounds, because fused operations are allowed; export with --contract off")
-        return []
     precision = Precision(manifest["precision"])
     bounds = bound_rounding(block, precision, mathematics=manifest.get("mathematics", "own"))
     for line in rounding_text(bounds, precision):
@@ -454,7 +459,7 @@ def _bounded(session: Session, block: Block, manifest: dict[str, Any]) -> list[B
 )
 @_common
 def audit_command(folder: Path, only: tuple[str, ...], calls: int, seconds: float, as_json: bool, debug: bool) -> None:
-    """Look at the C in FOLDER with analysers, sanitizers and fuzzers; writes FOLDER/audit.json."""
+    """Look at the C in FOLDER with analysers, sanitizers and fuzzers; writes FOLDER/audit.json, shown in its report.html."""
     session = Session(as_json, debug)
 
     def body() -> NoReturn:

@@ -53,7 +53,8 @@ def evidence_text(item: Export, seconds: float) -> list[str]:
     lines.append(f"  statuses reached: {reached}")
     lines += coverage_text(evidence.get("coverage", ""))
     lines += operations_text(json.loads(item.files["manifest.json"])["entries"])
-    return [*lines, *targets_text(evidence.get("targets", {}))]
+    lines += targets_text(evidence.get("targets", {}))
+    return [*lines, *(f"  {table['title']}: {table['caption']} (report.html)" for table in evidence.get("tables", []))]
 
 
 def coverage_text(coverage: Any) -> list[str]:

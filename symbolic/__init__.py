@@ -2,7 +2,7 @@
 
 from casadi import acos, asin, atan, atan2, cos, exp, fabs, fmax, fmin, if_else, log, sin, sqrt, tan, tanh, vertcat
 
-from .block import Block, Oracle, Scenario
+from .block import Block, Oracle, Scenario, Table
 from .controllers import (
     low_pass,
     notch,
@@ -28,6 +28,7 @@ __all__ = [
     "Scenario",
     "Status",
     "Symbol",
+    "Table",
     "ackermann",
     "acos",
     "asin",

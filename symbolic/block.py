@@ -125,6 +125,37 @@ class Scenario:
     scaled: Callable[[Mapping[str, Any], float], dict[str, Any]] | None = None
 
 
+@dataclass(frozen=True)
+class Table:
+    """What was measured of a block on demand, for the evidence and the report of its export.
+
+    Attributes
+    ----------
+    caption : str
+        What the table shows.
+    columns : tuple of str
+        Heads, with units.
+    rows : list of tuple
+        Cells: text, or finite numbers.
+    note : str
+        How it was measured.
+    """
+
+    caption: str
+    columns: tuple[str, ...]
+    rows: list[tuple[str | int | float, ...]]
+    note: str = ""
+
+    def __post_init__(self) -> None:
+        for row in self.rows:
+            if len(row) != len(self.columns):
+                raise ModelError(
+                    f"table {self.caption!r}: a row has {len(row)} cells, there are {len(self.columns)} columns; give one each"
+                )
+            if any(isinstance(cell, float) and not np.isfinite(cell) for cell in row):
+                raise ModelError(f"table {self.caption!r}: a cell is not finite; say so in words")
+
+
 class Block:
     """A discrete-time component: parameters, memory, and entries.
 
@@ -163,6 +194,7 @@ class Block:
         self.scenario: Scenario | None = None
         self.derivative_checks: list[DerivativeCheck] = []
         self.design: Design | None = None
+        self.tables: dict[str, Callable[[], Table]] = {}  # title -> what an export measures where it is asked to
         self.float_bound = 0.05
         self.sample_time: float | None = None
         self.source_hash = ""
@@ -455,10 +487,10 @@ class Block:
         return Signal("state", kind=Kind.GROUP, members=(*self.memory_signals, *groups))
 
     def param_group(self) -> Signal:
-        """Return the parameters as one group signal, parts nested; a part without any is left out."""
+        """Return the parameters as one group signal, parts nested; a part without parameters is no member."""
         groups = [replace(part.param_group(), name=name) for name, part in self.parts.items()]
-        groups = [group for group in groups if group.members]
-        return Signal("params", kind=Kind.GROUP, members=(*self.param_signals, *groups))
+        used = [group for group in groups if group.members]
+        return Signal("params", kind=Kind.GROUP, members=(*self.param_signals, *used))
 
     def judge_inputs(self, entry: Entry) -> Condition:
         """Return the condition that the inputs of an entry are within their ranges.

@@ -16,7 +16,7 @@ from .errors import ModelError
 from .expressions import equation_text, number_text, numpy_callable
 from .origins import Origin
 from .plant import Noise, Plant, Sensor, Symbol
-from .program import Evaluate, Place, Refuse
+from .program import AllOf, Assign, Compare, Element, Evaluate, Place, Refuse, Statement
 from .signals import Kind, Signal, Status, spread
 
 Array = NDArray[Any]
@@ -36,21 +36,25 @@ class Derivation:
     around : dict
         State or input (or its name) -> nominal value.
 
+    estimates : bool
+        Whether it is an estimator that is made; that needs a sensor.
+
     Raises
     ------
     ModelError
         If the plant is continuous, has no dynamics, no sensor, or a noise that nothing uses.
     """
 
-    def __init__(self, plant: Plant, name: str, doc: str, around: Mapping[Any, Any]):
+    def __init__(self, plant: Plant, name: str, doc: str, around: Mapping[Any, Any], *, estimates: bool = True):
         self.plant, self.name, self.around = plant, name, around
+        what = "an estimator" if estimates else "a simulated plant"
         if not plant.is_discrete:
             raise ModelError(
-                f"{plant.name}: an estimator runs in discrete time, and this plant is continuous; give it "
+                f"{plant.name}: {what} runs in discrete time, and this plant is continuous; give it "
                 f"{plant.name}.discretise('rk4', dt=...)"
             )
         plant.dynamics_expression()
-        if not plant.sensors:
+        if estimates and not plant.sensors:
             raise ModelError(f"{plant.name}: an estimator needs a sensor, and this plant has none; add sensor(...)")
         used = plant.process_noises + [noise for sensor in plant.sensors for noise in plant.sensor_noises(sensor)]
         for noise in plant.noises:
@@ -184,6 +188,33 @@ class Derivation:
             for i in range(state.signal.size)
         )
         return targets, names
+
+    def start_states(self) -> list[Statement]:
+        """Return what `init` does with the states: take them from the parameters, attitudes scaled to unit length."""
+        body: list[Statement] = []
+        for state in self.plant.states:
+            name = state.signal.name
+            if state.attitude:
+                symbol = ca.SX.sym("q", 4)
+                square = ca.dot(symbol, symbol)
+                function = ca.Function(
+                    f"{self.block.name}_normalise_{name}", [symbol], [symbol / ca.sqrt(square + 1e-20), square]
+                )
+                at = Place("local", f"square_{name}")
+                body.append(
+                    Evaluate(
+                        function,
+                        (((Place("param", f"{name}_0"), 4),),),
+                        (((Place("next", name), 4),), ((at, 1),)),
+                        (tuple(f"next_{name}_{i}" for i in range(4)), (at.name,)),
+                        (f"{name} = {name}_0 scaled to unit length, from which it may be 1 % away",),
+                    )
+                )
+                near = AllOf((Compare(Element(at), ">=", 0.98), Compare(Element(at), "<=", 1.02)))
+                body.append(Refuse(Status.BAD_PARAM, near))
+            else:
+                body.append(Assign(Place("next", name), Place("param", f"{name}_0"), state.signal.size))
+        return body
 
     def judge(self) -> Refuse:
         """Return the refusal of a state outside its range."""

@@ -520,28 +520,7 @@ class _Builder(Derivation):
         for noise, what in self._full_matrices():
             size = int((math.isqrt(8 * noise.size + 1) - 1) // 2)
             body += _definite_or_refuse(Place("param", noise.name), size, what)
-        for state in plant.states:
-            name = state.signal.name
-            if state.attitude:
-                symbol = ca.SX.sym("q", 4)
-                square = ca.dot(symbol, symbol)
-                function = ca.Function(
-                    f"{self.block.name}_normalise_{name}", [symbol], [symbol / ca.sqrt(square + 1e-20), square]
-                )
-                at = Place("local", f"square_{name}")
-                body.append(
-                    Evaluate(
-                        function,
-                        (((Place("param", f"{name}_0"), 4),),),
-                        (((Place("next", name), 4),), ((at, 1),)),
-                        (tuple(f"next_{name}_{i}" for i in range(4)), (at.name,)),
-                        (f"{name} = {name}_0 scaled to unit length, from which it may be 1 % away",),
-                    )
-                )
-                near = AllOf((Compare(Element(at), ">=", 0.98), Compare(Element(at), "<=", 1.02)))
-                body.append(Refuse(Status.BAD_PARAM, near))
-            else:
-                body.append(Assign(Place("next", name), Place("param", f"{name}_0"), state.signal.size))
+        body += self.start_states()
         body += self.form.start(
             [
                 Element(Place("param", f"variance_{state.signal.name}_0"), i)

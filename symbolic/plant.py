@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import copy
 import hashlib
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
 import casadi as ca
@@ -550,6 +551,16 @@ class Plant:
     def without_noise(self, expression: ca.SX) -> ca.SX:
         """Return an expression with every noise at zero."""
         return ca.substitute(expression, self.w, ca.DM.zeros(self.w.numel())) if self.noises else expression
+
+    def driven_by_noise(self) -> Plant:
+        """Return the plant whose inputs are its inputs, then its noises: what a simulation runs."""
+        driven = copy.copy(self)
+        noises = [noise.symbol for noise in self.noises]
+        driven._books = replace(self._books, inputs=[*self.inputs, *noises], noises=[])
+        if self.discretisation is not None:
+            continuous = self.discretisation.continuous.driven_by_noise()
+            driven.discretisation = replace(self.discretisation, continuous=continuous)
+        return driven
 
     def retract(self, x: ca.SX, error: ca.SX, *, first_order: bool = False) -> ca.SX:
         """Return x "plus" an error (error_size, 1): a sum, or for an attitude the quaternion turned by the error."""

@@ -10,6 +10,7 @@ from plantc.codegen.exported import ExportedFolder, MissingTool, open_folder, to
 from plantc.codegen.findings import CheckResult, Findings
 from plantc.codegen.folder import FolderError, write_folder
 from plantc.codegen.package import build_files
+from plantc.codegen.report import report_html
 from plantc.codegen.sanitizers import audit_sanitizers, audit_uninitialised
 from plantc.examples.pendulum import pendulum_ekf
 
@@ -191,6 +192,17 @@ def test_what_was_found_is_written_and_kept_while_the_files_are_the_same(folder,
     written = json.loads((folder / "audit.json").read_text())
     assert list(written["audits"]) == ["two"]
     assert written["changed_since_export"] == ["src/pendulum_ekf.c"]
+
+
+def test_the_page_of_the_folder_shows_what_was_found(folder, monkeypatch):
+    monkeypatch.setattr(audit, "AUDITS", [("one", good("one"))])
+    manifest = json.loads((folder / "manifest.json").read_text())
+    evidence = {"name": "pendulum_ekf", "model": manifest["model"], "precision": "float", "checks": []}
+    (folder / "report.html").write_text(report_html(pendulum_ekf, manifest, evidence, []))
+    audit_folder(folder)
+    page = (folder / "report.html").read_text()
+    assert page == report_html(pendulum_ekf, manifest, evidence, [], json.loads((folder / "audit.json").read_text()))
+    assert "one looked" in page
 
 
 def test_a_missing_tool_keeps_one_audit_from_running_not_the_others(folder, monkeypatch):

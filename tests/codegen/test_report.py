@@ -9,7 +9,7 @@ import pytest
 from plantc.codegen.costs import Cost, written
 from plantc.codegen.findings import CheckResult
 from plantc.codegen.package import export
-from plantc.codegen.report import report_html
+from plantc.codegen.report import report_html, with_audit
 from plantc.examples.pendulum import pendulum_ekf
 
 CHROMIUM = [
@@ -158,22 +158,61 @@ def test_it_degrades_where_the_evidence_is_poor_and_takes_new_keys(exported):
         },
         "symbols": ["sqrtf", "memcpy"],
         "gates": {"no heap": True},
-        "conditioning": [{"form": "ud", "steps": 100}],
+        "tables": [{"title": "Lasting <1>", "caption": "How long", "columns": ["form", "steps"],
+                    "rows": [["ud", 100000], ["other", "never"]], "note": "Measured so."}],
         "something new": {"a": [1, 2], "b": {"c": 1.5}},
     }  # fmt: skip
-    page = report_html(pendulum_ekf, manifest, rich, exported.check.calls, audit={"misra": {"findings": 0}})
+    page = report_html(pendulum_ekf, manifest, rich, exported.check.calls)
     assert broken(page) == []
     for text in (
         "figure-instructions",
         "figure-stack",
         "sqrtf",
         "no heap",
-        "ud",
+        '<a href="#table-1">Lasting &lt;1&gt;</a>',
+        "<caption>How long</caption>",
+        '<th scope="row">ud</th>\n<td>100,000</td>',
+        "Measured so.",
         "something new",
-        "misra",
         "install qemu",
     ):
         assert text in page
+
+
+AUDIT = {
+    "machine": "x86_64", "tools": {"gcc": "gcc 12", "clang": ""}, "changed_since_export": [],
+    "not_run": {"libfuzzer": "clang is not installed"},
+    "audits": {
+        "misra": {"checks": [CheckResult("the <library>", True, note="no finding").as_dict()],
+                  "deviations": [{"rule": "21.6", "file": "test/test_vectors.c", "count": 3, "reason": "it prints"}]},
+        "sanitizers": {"checks": [CheckResult("nothing lost", False, calls=12345, note="1 lost").as_dict()],
+                       "random_calls": {"calls": 12345, "lost": 1}},
+    },
+}  # fmt: skip
+
+
+def test_an_audit_is_shown_in_its_place_and_a_later_one_takes_it(exported, page):
+    assert "Not done. <code>plantc audit pendulum_ekf</code>" in page
+    manifest = json.loads(exported.files["manifest.json"])
+    shown = with_audit(page, "pendulum_ekf", AUDIT)
+    assert report_html(pendulum_ekf, manifest, exported.evidence, exported.check.calls, audit=AUDIT) == shown
+    assert "Not done." not in shown
+    assert broken(shown) == []
+    for text in (
+        "the &lt;library&gt;",
+        "12,345</strong> calls",
+        "1 were not as they have to be",
+        "it prints",
+        "gcc 12",
+    ):
+        assert text in shown
+    rows = {row[1]: row[2] for row in rows_of(shown, "Every analyser")[1:]}
+    assert rows == {"the &lt;library&gt;": "passed", "nothing lost": "failed", "": "not run"}
+    later = with_audit(shown, "pendulum_ekf", {**AUDIT, "audits": {}, "changed_since_export": ["src/a.c"]})
+    assert "nothing lost" not in later
+    assert "not of the C that was exported: src/a.c" in later
+    assert later.count('id="audit"') == 1
+    assert with_audit("<html>another page</html>", "pendulum_ekf", AUDIT) == "<html>another page</html>"
 
 
 def rows_of(page, caption):

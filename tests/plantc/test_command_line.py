@@ -370,6 +370,20 @@ def test_without_a_compiler_it_says_what_to_install(model, plantc, monkeypatch):
     fails(plantc("export", model(LOW_PASS), *FAST), 2, "$CC", "no-such-compiler")
 
 
+def test_an_fmu_of_a_block_without_a_step_is_refused_before_the_work(model, plantc, tmp_path):
+    path = model(LOW_PASS.replace('entry("step"', 'entry("filter"'))
+    fails(plantc("export", path, "--fmu", *FAST), 2, "--fmu", "low_pass has no entry step", "filter", "add one")
+    assert not (tmp_path / "generated_c").exists()
+
+
+def test_an_fmu_without_fmpy_says_what_to_install(model, plantc, tmp_path, monkeypatch):
+    from plantc.codegen import fmu
+
+    monkeypatch.setattr(fmu.importlib.util, "find_spec", lambda name: None)
+    fails(plantc("export", model(LOW_PASS), "--fmu", *FAST), 2, "fmpy", "pip install 'plantc[fmu]'")
+    assert not (tmp_path / "generated_c").exists()
+
+
 def plant_a_fault(monkeypatch):
     """From now on the C of the low-pass weighs a little wrong."""
     from dataclasses import replace
@@ -589,3 +603,48 @@ def test_check_proves_what_lies_there(model, plantc, needs, tmp_path):
     bad = plantc("check", folder, "--model", f"{name}:pendulum_ekf", *FAST, "--prove")
     assert bad.status == 1
     assert "FAIL proof of is_held" in bad.err
+
+
+def test_what_may_be_fused_is_not_proved(model, plantc, needs, tmp_path):
+    needs("frama-c", "gappa")
+    name, folder = model(LOW_PASS), tmp_path / "generated_c/low_pass"
+    assert plantc("export", name, *FAST, "--contract", "on").status == 0
+    fails(plantc("check", folder, "--model", name, *FAST, "--prove"), 2, "--contract on", "--contract off")
+
+
+# -- tables that a model brings ---------------------------------------------------------------------------------------
+
+TABLE = (
+    LOW_PASS
+    + """
+from plantc.symbolic import Table
+
+low_pass.tables["Decay"] = lambda: Table("Calls until half is left", ("weight", "calls"), [(0.1, 7)], "Counted.")
+"""
+)
+
+
+def test_a_table_of_the_model_is_measured_where_it_is_asked_for(model, plantc, tmp_path):
+    name = model(TABLE)
+    said = plantc("export", name, *FAST, "--tables", "--json")
+    assert said.status == 0, said.err
+    (table,) = one_object(said)["blocks"][0]["tables"]
+    assert (table["title"], table["rows"]) == ("Decay", [[0.1, 7]])
+    assert "Decay: Calls until half is left (report.html)" in said.err
+    assert "<caption>Calls until half is left</caption>" in (tmp_path / "generated_c/low_pass/report.html").read_text()
+    assert "tables" not in one_object(plantc("export", name, *FAST, "--json"))["blocks"][0]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (LOW_PASS, ["model.py: --tables is given, but no block brings a table; leave it out"]),
+        (TABLE.replace("lambda: Table", "lambda: __import__('no_such') or Table"), ["'Decay'", "pip install no_such"]),
+        (TABLE.replace("[(0.1, 7)]", "[(0.1,)]"), ["a row has 1 cells, there are 2 columns"]),
+        (TABLE.replace("[(0.1, 7)]", "[(0.1, float('inf'))]"), ["a cell is not finite; say so in words"]),
+    ],
+)
+def test_a_table_that_cannot_be_made_leaves_nothing(model, plantc, tmp_path, text, words):
+    said = plantc("export", model(text), *FAST, "--tables")
+    fails(said, 2, *words)
+    assert not (tmp_path / "generated_c/low_pass").exists()
