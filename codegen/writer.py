@@ -230,7 +230,7 @@ class CoreWriter:
             self._line("")
         if not self.block.memory_group().members:
             self._line("after->unused = 0U;")
-        if not self.entry.checks_params and not any("before" in line for line in (*self.lines, *text)):
+        if not self.entry.checks_params and not any(map(_reads_before, (*self.lines, *text))):
             self._line("(void)before;")
         self.lines += text
         self._bookkeeping("the status to be returned")
@@ -972,6 +972,11 @@ def _mentions_param(item: Any) -> bool:
             return item.flag.place.space == "param"
         case _:
             return False
+
+
+def _reads_before(line: str) -> bool:
+    """Whether a line of C uses the argument `before`: not a field whose name ends so, nor a comment."""
+    return re.search(r"\bbefore(?:->|,|\))", line) is not None and not line.lstrip().startswith(("/*", "*"))
 
 
 def _targets(statement: Statement) -> set[Place]:
