@@ -28,6 +28,7 @@ from .symbolic.composition import connect, delay, wires
 from .symbolic.controllers import state_feedback
 from .symbolic.design import Gain, ackermann, lqr, place, place_chains
 from .symbolic.estimators import extended_kalman_filter, kalman_filter, steady_state_kalman_filter
+from .symbolic.james_stein import james_stein_estimator
 
 __all__ = [
     "Attitude",
@@ -48,6 +49,7 @@ __all__ = [
     "emit",
     "export",
     "extended_kalman_filter",
+    "james_stein_estimator",
     "kalman_filter",
     "linearise",
     "lqr",

@@ -535,7 +535,14 @@ class _Builder(Derivation):
         entries = [self._init(), predict, *updates, self._step(predict, updates)]
         block.entries = {entry.name: entry for entry in entries}
         block.equations = plant_equations(plant)
-        block.notes = [*self.notes(), "James-Stein: no covariance is kept; process noise is not used."]
+        block.notes = [*self.notes(), "No covariance is kept, and process noise is not used."]
+        for made in self.measured:
+            name = made.sensor.signal.name
+            block.notes.append(
+                f"Weights of {name}: n* = {made.weights.effective_dimension:.9g}, c = {made.weights.shrink:.9g}."
+                if made.weights is not None
+                else f"Weights of {name} are computed in each call; NOT_POSITIVE says that its rank is too low there."
+            )
         block.source_hash = plant.fingerprint()
         block.check()
         check_unique(

@@ -11,7 +11,7 @@ from plantc.codegen import emit
 from plantc.codegen.crosscheck import make_views
 from plantc.codegen.layout import flatten
 from plantc.reference.james_stein import effective_dimension, james_stein, shrink_constant, weight
-from plantc.symbolic import ModelError, Plant, Status, cos, sin, vertcat
+from plantc.symbolic import ModelError, Plant, Status, cos, sin, sqrt, vertcat
 from plantc.symbolic.james_stein import james_stein_estimator
 from scipy.optimize import least_squares
 
@@ -469,6 +469,31 @@ def block_with_fewer_steps():
     block = curved(iterations=1)
     block.oracle = curved(iterations=5).oracle
     return block
+
+
+NOWHERE = {
+    "a derivative that is infinite": (lambda x, y: vertcat(1 / x, y), lambda x: 0.01, 0.0, Status.OVERFLOW),
+    "a noise that is infinite": (lambda x, y: vertcat(x, y), lambda x: vertcat(1 / x**2, 1), 0.0, Status.NOT_POSITIVE),
+    "a noise that is no number": (lambda x, y: vertcat(x, y), lambda x: vertcat(1, sqrt(x)), -1.0, Status.OVERFLOW),
+    "a noise that is negative": (lambda x, y: vertcat(x, y), lambda x: vertcat(1, x), -1.0, Status.NOT_POSITIVE),
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("case", NOWHERE)
+def test_what_is_no_number_is_refused(kind, case):
+    reading, noise, bad, expected = NOWHERE[case]
+    plant = Plant("pole", dt=1.0)
+    x, y = plant.state("x", range=(-10, 10)), plant.state("y", range=(-10, 10))
+    plant.dynamics({x: x, y: y})
+    plant.sensor("s", reading(x, y), variance=noise(x))
+    view = kind(james_stein_estimator(plant, around={"x": 1.0}))
+    params = view.params()
+    memory = view.init(params)
+    inputs = view.inputs("update_s", {"s": [1.0, 1.0]})
+    assert view.call("update_s", memory, inputs, params).status == Status.OK
+    memory["x"] = bad
+    assert view.call("update_s", memory, inputs, params).status == expected
 
 
 def changing(n):
