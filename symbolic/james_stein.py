@@ -452,7 +452,10 @@ class _Builder(Derivation):
             body.append(Refuse(Status.NOT_POSITIVE, AllOf((Compare(Element(local), ">=", LEAST_PIVOT),))))
         comment, origins = self._said(made, len(outputs))
         evaluate: Evaluate = self.evaluate(f"update_{name}", reads, outputs, comment, origins)
-        body = [evaluate, *body, Refuse(Status.OVERFLOW, Within(out, (0.0,), (LARGEST,))), self.judge()]
+        # ends that a weight never comes near: only what is no number is outside
+        is_number = Within(Place("out", "weight"), (-1.0,), (2.0,))
+        finite = Refuse(Status.OVERFLOW, AllOf((Within(out, (0.0,), (LARGEST,)), is_number)))
+        body = [evaluate, *body, finite, self.judge()]
         reading = Signal(**{**sensor.signal.__dict__, "doc": sensor.doc or "reading"})
         return Entry(
             f"update_{name}",
