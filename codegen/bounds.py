@@ -175,6 +175,13 @@ class _Block:
 
 _COPIES = re.compile(r"^(?:__aeabi_)?mem(?:cpy|set|move|clr)[48]?$")
 _COUNT_REGISTERS = {"thumb": "r2", "rv32": "a2", "x86-64": "edx"}
+_BIT_LOOPS = {
+    "thumb": {"__aeabi_dmul": 52, "__aeabi_ddiv": 13, "__ieee754_sqrt": 32},
+    "rv32": {"__ieee754_sqrt": 32, "sqrt": 32},
+}
+"""Turns of the loops in double arithmetic in software, read from its text. libgcc's ieee754-df.S (gcc 12): a fraction of 52 bits
+is shifted by one bit until its first is in place; a quotient is found four bits a turn, in words of 5 and 8 turns. Sun's
+e_sqrt.c in newlib and picolibc: a root is found bit by bit, in words of 22 and 32 bits."""
 _FILLS_FIRST = re.compile(r"^__aeabi_mem(?:set|clr)[48]?$")
 
 
@@ -304,7 +311,7 @@ class Analysis:
             calls.setdefault(item.address, []).append((item, item.target))
         elif item.kind == "jump":
             if item.target is None:
-                raise _NoBound(f"an indirect jump in {self._name(start)}")
+                return self._riscv_table(start, item, items)
             if self._is_other(start, item.target):
                 calls.setdefault(item.address, []).append((item, item.target))
                 leaving.add(item.address)
@@ -339,6 +346,50 @@ class Analysis:
             targets.append(item.next + 2 * word)
         return list(dict.fromkeys(targets))
 
+    def _riscv_table(self, start: int, jump: Instruction, items: Mapping[int, Instruction]) -> list[int]:
+        """Return the targets of a `switch` as gcc writes it for RISC-V: a table of offsets from its own address.
+
+        Before the jump stand ``bltu limit, index``, the address of the table, ``slli``, ``add``, ``lw``, ``add``. An
+        indirect jump of another kind has no bound.
+        """
+        before = [items[at] for at in sorted(items) if jump.address - 60 <= at < jump.address]
+        last = [(item.mnemonic.removeprefix("c."), re.split(r", |[()]", item.operands)) for item in before]
+        names = [name for name, _ in last[-4:]]
+        no_table = _NoBound(f"an indirect jump in {self._name(start)}")
+        if self.image.machine != "rv32" or names != ["slli", "add", "lw", "add"]:
+            raise no_table
+        table = next((word for word in last[-1][1][1:] if word != jump.operands), "")
+        base = self._riscv_address(table, before)
+        branch = next(((name, words) for name, words in reversed(last[:-4]) if name in ("bltu", "bgeu")), None)
+        limit = _loaded(branch[1][0], before[: last.index(branch)]) if branch is not None else None
+        if base is None or branch is None or branch[0] != "bltu" or limit is None or not 0 < limit < 256:
+            raise no_table
+        targets = []
+        for k in range(limit + 1):
+            offset = self.image.word(base + 4 * k, 4)
+            if offset is None:
+                raise no_table
+            targets.append((base + offset) & 0xFFFFFFFF)
+        return list(dict.fromkeys(targets))
+
+    def _riscv_address(self, register: str, before: Sequence[Instruction]) -> int | None:
+        """Return the address in a register that `auipc` or `lui` and `addi` have put there."""
+        value: int | None = None
+        for item in before:
+            words = [word.strip() for word in item.operands.split(",")]
+            number = _immediate(words[-1])
+            if words[0] != register or item.mnemonic.startswith(("b", "s", "c.b", "c.s")):
+                continue
+            if item.mnemonic == "auipc" and number is not None:
+                value = item.address + (number << 12)
+            elif item.mnemonic in ("lui", "c.lui") and number is not None:
+                value = number << 12
+            elif item.mnemonic in ("addi", "c.addi") and value is not None and number is not None:
+                value += number
+            elif item.mnemonic != "c.mv" or words[-1] != register:
+                value = None
+        return None if value is None else value & 0xFFFFFFFF
+
     # -- instructions -------------------------------------------------------------------------------------------------
 
     def _cost(self, start: int, count: int | None) -> int:
@@ -369,35 +420,39 @@ class Analysis:
             amount = None
             if _COPIES.match(self._name(target)):
                 own = self._name(start)
-                amount = count if _COPIES.match(own) else self._constant(body, at, item, self._name(target))
+                amount = count if _COPIES.match(own) else self._constant(body, at, start, item, self._name(target))
                 if amount is None:
                     raise _NoBound(f"{self._name(target)}, called by {own} for a size that is not constant")
             total += self._cost(target, amount)
         return total
 
-    def _constant(self, body: Mapping[int, _Block], at: int, call: Instruction, callee: str) -> int | None:
+    def _constant(self, body: Mapping[int, _Block], at: int, start: int, call: Instruction, callee: str) -> int | None:
         """Return the constant in the register that says how much is copied, looking back from a call."""
         register = _COUNT_REGISTERS[self.image.machine]
         if _FILLS_FIRST.match(callee):
             register = "r1"
         before = [item for item in body[at].items if item.address < call.address]
-        seen = {at}
-        while True:
-            for item in reversed(before):
-                if item.kind == "call":
-                    return None
-                if re.match(rf"^{register}\b", item.operands) and not item.mnemonic.startswith(
-                    ("cmp", "cmn", "tst", "str", "s", "test", "push", "b", "cb")
-                ):
-                    found = re.fullmatch(rf"{register}, (?:zero, )?#?(0x[0-9a-f]+|\d+)", item.operands)
-                    loads = item.mnemonic in ("movs", "mov", "mov.w", "movw", "c.li", "li", "addi")
-                    return int(found[1], 0) if found and loads else None
-            sources = [key for key, block in body.items() if at in block.after]
-            if len(sources) != 1 or sources[0] in seen:
+        return self._greatest(body, at, before, register, frozenset({start}))  # what the caller left there is not known
+
+    def _greatest(
+        self, body: Mapping[int, _Block], at: int, before: Sequence[Instruction], register: str, seen: frozenset[int]
+    ) -> int | None:
+        """Return the greatest constant that a register may hold after some instructions of a block, over all ways there."""
+        for item in reversed(before):
+            if item.kind == "call":
                 return None
-            at = sources[0]
-            seen.add(at)
-            before = body[at].items
+            if re.match(rf"^{register}\b", item.operands) and not item.mnemonic.startswith(
+                ("cmp", "cmn", "tst", "str", "s", "test", "push", "b", "cb")
+            ):
+                found = re.fullmatch(rf"{register}, (?:zero, )?#?(0x[0-9a-f]+|\d+)", item.operands)
+                loads = item.mnemonic in ("movs", "mov", "mov.w", "movw", "c.li", "li", "addi")
+                return int(found[1], 0) if found and loads else None
+        sources = [key for key, block in body.items() if at in block.after]
+        if not sources or at in seen or len(seen) > 9:
+            return None
+        values = [self._greatest(body, key, body[key].items, register, seen | {at}) for key in sources]
+        known = [value for value in values if value is not None]
+        return max(known) if len(known) == len(values) else None
 
     def _region(
         self,
@@ -465,6 +520,9 @@ class Analysis:
         if count is not None and _COPIES.match(self._name(start)):
             return self._copy_turns(blocks, members, start, count)
         touched = self._touched(blocks, members)
+        bits = _BIT_LOOPS.get(self.image.machine, {}).get(self._name(head).split("+")[0])
+        if bits is not None:
+            return bits
         if not touched:  # of an assignment of a struct, which a compiler may write as a loop
             lines = [self.image.line_of(item.address) for at in members for item in blocks[at].items]
             if not self.largest or not all(line is not None and line[0] == self.file for line in lines):

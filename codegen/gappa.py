@@ -234,7 +234,7 @@ class Gappa:
         self.names: dict[Node, tuple[str, str]] = {}
         self.unknown: list[str] = []
         self.divisors: list[tuple[str, str]] = []
-        self.needs: list[str] = []
+        self.limits: dict[str, float] = {}
         self.order = list(self._ordered())
         for node in self.order:
             self._define(node)
@@ -353,7 +353,7 @@ class Gappa:
             raise NotBounded(f"{name} of the C library, whose error nobody states")
         rounded, true = f"v{number}", f"t{number}"
         if name in ("sin", "cos", "tan"):
-            self.needs.append(f"|{operands[0][0]}| <= {LIMITS[self.precision.name].hex()}")
+            self.limits[operands[0][0]] = LIMITS[self.precision.name]
         hulls = [(-math.inf, math.inf)] if name in ("sin", "cos", "tanh") else self._hulls(name, operands)
         if name == "atan2":
             values, *slopes = _slopes_of_atan2(hulls[0], hulls[1])
@@ -386,12 +386,12 @@ class Gappa:
     def _hulls(self, name: str, operands: Sequence[tuple[str, str]]) -> list[Interval]:
         """Ask where arguments lie, as rounded and exact."""
         terms = [term for pair in operands for term in pair]
-        found = self.ask([f"{term} in ?" for term in dict.fromkeys(terms) if not term.startswith(("0x", "-0x"))])
+        found = self.ask([f"{term} in ?" for term in dict.fromkeys(terms) if not _is_number(term)])
         hulls = []
         for pair in operands:
             ends: list[Fraction] = []
             for term in pair:
-                if term.startswith(("0x", "-0x")):
+                if _is_number(term):
                     ends.append(Fraction(float.fromhex(term)))
                 elif found is None or term not in found:
                     raise NotBounded(f"{name} of something without a bound{self._because()}")
@@ -431,10 +431,25 @@ class Gappa:
         return " - ".join(self.names[self.piece.node])
 
     def goals(self) -> list[str]:
-        """Return what is asked: the error, the range of the value, and that nothing on the way overflows."""
-        most = float(self.info.max).hex()
-        limits = [f"|{self.names[node][0]}| <= {most}" for node in self._may_overflow()]
-        return [f"{self.error} in ?", f"{self.value} in ?", *self.needs, *limits]
+        """Return what is asked: the error, and the range of the value."""
+        return [f"{self.error} in ?", f"{self.value} in ?"]
+
+    def _stays_within_limits(self) -> bool:
+        """Whether nothing on the way overflows, or is beyond what a function takes; true where no input comes here.
+
+        Asked of the rounded values alone, which is quick.
+        """
+        limits = {self.names[node][0]: float(self.info.max) for node in self._may_overflow()}
+        limits = {term: most for term, most in {**limits, **self.limits}.items() if not _is_number(term)}
+        if not limits:
+            return True
+        lines = [line for line in self.lines if not line.startswith("e")]
+        given = [item for item in self.hypotheses if not re.match(r"[cde]\d", item)]
+        text = "\n".join([*lines, _question(given, [f"{term} in ?" for term in limits])]) + "\n"
+        found = answers(text, self.seconds)
+        if found is None:
+            return True
+        return all(term in found and max(-found[term][0], found[term][1]) <= most for term, most in limits.items())
 
     def _may_overflow(self) -> list[Node]:
         """Return results that could be infinite although the piece is accepted."""
@@ -458,16 +473,10 @@ class Gappa:
 
     def text(self, goals: Sequence[str]) -> str:
         """Return the whole script for some goals."""
-        given = " /\\\n  ".join(self.hypotheses)
-        asked = " /\\\n  ".join(goals)
-        question = f"{given}\n  ->\n  {asked}" if given else asked
-        return "\n".join([*self.lines, f"{{ {question} }}", *self.hints]) + "\n"
+        return "\n".join([*self.lines, _question(self.hypotheses, goals), *self.hints]) + "\n"
 
     def ask(self, goals: Sequence[str]) -> dict[str, tuple[Fraction, Fraction]] | None:
-        """Return what Gappa finds: term -> ends; goals without a question mark that do not hold under ``""``.
-
-        Nothing is returned where the hypotheses exclude each other.
-        """
+        """Return what Gappa finds: term -> ends; nothing where the hypotheses exclude each other."""
         return answers(self.text(goals), self.seconds)
 
     def bounds(self) -> tuple[float, float, float] | None:
@@ -478,12 +487,13 @@ class Gappa:
         NotBounded
             If Gappa finds none.
         """
+        if not self._stays_within_limits():
+            beyond = "an intermediate value may overflow, or lie beyond what a function takes"
+            raise NotBounded(self._reason() if self.unknown else beyond)
         found = self.ask(self.goals())
         if found is None:
             return None
-        if "" in found and not self.unknown:
-            raise NotBounded("an intermediate value may overflow, or lie beyond what a function takes")
-        if self.error not in found or self.value not in found or "" in found:
+        if self.error not in found or self.value not in found:
             raise NotBounded(self._reason())
         error, value = found[self.error], found[self.value]
         return _up(max(-error[0], error[1])), _down(value[0]), _up(value[1])
@@ -502,6 +512,15 @@ class Gappa:
                 if ends is None or ends[0] <= 0 <= ends[1]:
                     return "it divides by what may be zero"
         return "Gappa finds no bound"
+
+
+def _question(given: Sequence[str], goals: Sequence[str]) -> str:
+    hypotheses, asked = (" /\\\n  ".join(items) for items in (given, goals))
+    return f"{{ {hypotheses}\n  ->\n  {asked} }}" if hypotheses else f"{{ {asked} }}"
+
+
+def _is_number(term: str) -> bool:
+    return term.startswith(("0x", "-0x"))
 
 
 def _up(value: Fraction) -> float:
@@ -524,8 +543,8 @@ def answers(script: str, seconds: float) -> dict[str, tuple[Fraction, Fraction]]
     Returns
     -------
     dict or None
-        Term -> both ends of what it lies in; the key ``""`` is there if a goal that names its limits does not hold.
-        None where the hypotheses exclude each other.
+        Term -> both ends of what it lies in; terms without bounds are left out. None where the hypotheses exclude each
+        other.
 
     Raises
     ------
@@ -542,15 +561,9 @@ def answers(script: str, seconds: float) -> dict[str, tuple[Fraction, Fraction]]
     said = done.stdout + done.stderr
     if "anything can be proved" in said:
         return None
-    if "no contradiction was found" in said:  # a limit that is certainly exceeded
-        return {"": (Fraction(0), Fraction(0))}
-    if done.returncode not in (0, 1) or ("Results:" not in said and "properties were not satisfied" not in said):
+    if done.returncode and "properties were not satisfied" not in said:
         raise RuntimeError(f"gappa ended with {done.returncode}: {said.strip()[:500]}")
-    found = {match[1]: (_dyadic(match[2], match[3]), _dyadic(match[4], match[5])) for match in _RESULT.finditer(said)}
-    open_ones = said.partition("properties were not satisfied:")[2]
-    if "BND(|" in open_ones:  # only limits are asked of magnitudes
-        found[""] = (Fraction(0), Fraction(0))
-    return found
+    return {match[1]: (_dyadic(match[2], match[3]), _dyadic(match[4], match[5])) for match in _RESULT.finditer(said)}
 
 
 def _dyadic(mantissa: str, exponent: str | None) -> Fraction:

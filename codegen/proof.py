@@ -12,6 +12,7 @@ from __future__ import annotations
 import csv
 import os
 import re
+import subprocess
 import tempfile
 import time
 from collections.abc import Iterator, Mapping, Sequence
@@ -35,6 +36,10 @@ OPTIONS = [
 
 EFFORTS = {"judgement": (2000,), "straight": (100, 1000), "sequence": (3000,)}
 """States that the analyser keeps apart, tried in this order, by what kind of function it is."""
+
+
+HELD = (Status.NOT_POSITIVE, Status.OVERFLOW, Status.OK, Status.CLAMPED)
+"""What the function that holds a matrix within its limits may return."""
 
 
 @dataclass(frozen=True)
@@ -108,11 +113,31 @@ def _exact(value: float, precision: Precision) -> str:
 
 
 def _holds(target: str, signals: Sequence[Signal], precision: Precision) -> list[str]:
+    """Return assertions: every number within its range, every count and flag written."""
     lines = []
     for signal, k, name in _fields(signals):
+        item = f"{target}.{name}"
         if signal.kind is Kind.REAL:
-            item, low, high = f"{target}.{name}", _exact(signal.low[k], precision), _exact(signal.high[k], precision)
+            low, high = _exact(signal.low[k], precision), _exact(signal.high[k], precision)
             lines.append(f"    //@ assert \\is_finite({item}) && {low} <= {item} <= {high};")
+        else:  # a copied struct tells nobody that a field of it was never written
+            lines.append(f"    //@ assert \\initialized(&{item});")
+    return lines
+
+
+def _answers(target: str, signals: Sequence[Signal]) -> list[str]:
+    """Return assertions: every number finite, every status one of the enum, all else written."""
+    lines = []
+    for signal, _, name in _fields(signals):
+        item = f"{target}.{name}"
+        if signal.kind is Kind.REAL:
+            lines.append(f"    //@ assert \\is_finite({item});")
+        elif signal.kind is Kind.STATUS:
+            lines.append(
+                f"    //@ assert \\initialized(&{item}) && {int(min(Status))} <= {item} <= {int(max(Status))};"
+            )
+        else:
+            lines.append(f"    //@ assert \\initialized(&{item});")
     return lines
 
 
@@ -138,12 +163,8 @@ def _proof_of(block: Block, entry: Entry, precision: Precision) -> list[str]:
     lines.append(f"    //@ assert {int(min(Status))} <= status <= {int(max(Status))};")
     holds = _holds("state", memory, precision)
     lines += ["    if (status >= 0)", "    {", *holds, "    }"] if entry.checks_params else holds
-    finite = [
-        f"    //@ assert \\is_finite(out.{field});"
-        for signal, _, field in _fields(entry.outputs)
-        if signal.kind is Kind.REAL
-    ]
-    return lines + (["    if (status >= 0)", "    {", *finite, "    }"] if finite else [])
+    answers = _answers("out", entry.outputs)
+    return lines + (["    if (status >= 0)", "    {", *answers, "    }"] if answers else [])
 
 
 _TOLD = ["    if (status >= 0) { Frama_C_show_each_accepted(1); } else { Frama_C_show_each_refused(1); }"]
@@ -193,7 +214,12 @@ class _Prover:
                 tasks.append(Task(helper, self.text.source, _function(body), "judgement", size))
         stubs = {f"{self.name}_is_held": self._passing_stub()} if self._has("is_held") else {}
         body = [*anything, f"    const {self.name}_status_t status = {holder}({'c' if size > 1 else '&c[0]'});"]
-        body += [f"    //@ assert {int(min(Status))} <= status <= {int(max(Status))};", "    if (status >= 0)", "    {"]
+        # what the stub may return, and nothing else
+        body += [
+            f"    //@ assert {' || '.join(f'status == {int(item)}' for item in HELD)};",
+            "    if (status >= 0)",
+            "    {",
+        ]
         body += [*within, "    }", *_TOLD]
         name = holder.removeprefix(f"{self.name}_")
         return [*tasks, Task(name, replaced(self.text.source, stubs), _function(body), "judgement", size + 1)]
@@ -216,11 +242,12 @@ class _Prover:
         field, array, _ = self._matrix()
         real, upper, lines = self.precision.name, self.name.upper(), ["    if (any_count != 0U)", "    {"]
         lines += [f"        {array}[{k}] = any_real;" for k in range(field.size)]
-        lines += [f"        return (any_count != 0U) ? {upper}_NOT_POSITIVE : {upper}_OVERFLOW;", "    }"]
+        refused, held = ([f"{upper}_{item.name}" for item in HELD if (item < 0) is bad] for bad in (True, False))
+        lines += [f"        return (any_count != 0U) ? {' : '.join(refused)};", "    }"]
         for k in range(field.size):
             low, high = self.precision.literal(field.low[k]), self.precision.literal(field.high[k])
             lines.append(f"    {array}[{k}] = Frama_C_{real}_interval({low}, {high});")
-        return [*lines, f"    return (any_count != 0U) ? {upper}_OK : {upper}_CLAMPED;"]
+        return [*lines, f"    return (any_count != 0U) ? {' : '.join(held)};"]
 
     # -- entries ------------------------------------------------------------------------------------------------------
 
@@ -233,7 +260,7 @@ class _Prover:
             if self._has("is_bounded"):
                 stubs[f"{self.name}_is_bounded"] = self._passing_stub()
         body = [*_proof_of(self.block, entry, self.precision), *(_TOLD if self._may_be_refused(entry) else [])]
-        least = sum(signal.kind is Kind.REAL for signal, _, _ in _fields(self.memory))
+        least = len(list(_fields(self.memory))) + len(list(_fields(entry.outputs)))
         effort = "sequence" if called else "straight"
         return Task(entry.name, replaced(self.text.source, stubs), _function(body), effort, least + 1)
 
@@ -244,17 +271,25 @@ class _Prover:
         """What an entry's core promises: refused and anything, or memory within its ranges and finite outputs."""
         head = _definition(self.text.source, f"{self.name}_{entry.name}_core")[2]
         lines = ["    //@ assert before != after;", *_holds("(*before)", self.memory, self.precision)]
-        lines += ["    if (any_count != 0U)", "    {"]
-        lines += [f"    {line}" for line in _fill("(*after)", self.memory, self.precision, anything=True)]
+        lines += [
+            "    if (any_count != 0U)",
+            "    {",
+            "        if (any_count != 0U)",
+            "        {",
+        ]  # or it wrote nothing
+        lines += [f"        {line}" for line in _fill("(*after)", self.memory, self.precision, anything=True)]
+        lines += ["        }"]
         lines += [f"        return ({self.name}_status_t)Frama_C_interval({int(min(Status))}, -1);", "    }"]
         lines += _fill("(*after)", self.memory, self.precision, anything=False)
         most = "3.4e38f" if self.precision.is_float else "1.7e308"
         if "*out" in head:
-            lines += [
-                f"    out->{name} = Frama_C_{self.precision.name}_interval(-{most}, {most});"
-                for signal, _, name in _fields(entry.outputs)
-                if signal.kind is Kind.REAL
-            ]
+            worth = {
+                Kind.REAL: f"Frama_C_{self.precision.name}_interval(-{most}, {most})",
+                Kind.STATUS: f"({self.name}_status_t)Frama_C_interval({int(min(Status))}, {int(max(Status))})",
+                Kind.FLAG: "(any_count != 0U)",
+                Kind.COUNT: "any_count",
+            }
+            lines += [f"    out->{name} = {worth[signal.kind]};" for signal, _, name in _fields(entry.outputs)]
         return [*lines, f"    return ({self.name}_status_t)Frama_C_interval(0, {int(max(Status))});"]
 
 
@@ -324,8 +359,8 @@ def analyse(
     ------
     MissingTool
         If frama-c is not installed.
-    RuntimeError
-        If it ended without a report.
+    ProofError
+        If it ended without a report: it could not read the C.
     """
     program = tool("frama-c", "frama-c-base")
     with tempfile.TemporaryDirectory() as place:
@@ -342,7 +377,10 @@ def analyse(
         command += ["-main=prove", str(folder / "proof_main.c"), "-then", "-report-csv", str(report)]
         done = run_tool(command, folder, seconds=seconds)
         if done.returncode != 0 or not report.is_file():
-            raise RuntimeError(f"frama-c ended with {done.returncode}: {(done.stdout + done.stderr)[-1000:]}")
+            said = " ".join((done.stdout + done.stderr).split())[-400:]
+            raise ProofError(
+                f"{block.name}: frama-c ended with {done.returncode} and no report; mend the C, or export again: {said}"
+            )
         with report.open() as rows:
             found = [
                 Property(row["function"], row["property kind"], row["status"], row["property"])
@@ -365,7 +403,11 @@ def prove_task(block: Block, text: CText, task: Task, *, seconds: float = 300.0)
     needed = {"accepted", "refused"} if "show_each" in task.harness else set()
     started, note, count = time.perf_counter(), "", 0
     for effort in EFFORTS[task.effort]:
-        properties, ways = analyse(block, text, task, effort, seconds=seconds)
+        try:
+            properties, ways = analyse(block, text, task, effort, seconds=seconds)
+        except subprocess.TimeoutExpired:
+            note = f"frama-c was not done after {seconds:.0f} s, with {effort} states kept apart"
+            break
         own = [item for item in properties if item.function == "prove" and item.kind == "user assertion"]
         open_ones = [item for item in properties if not item.is_proved]
         count = len(properties)

@@ -68,7 +68,7 @@ class Leaf:
     default: float | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Piece:
     """One scalar result of an entry, as the C computes it.
 

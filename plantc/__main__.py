@@ -422,6 +422,11 @@ def check_command(
 
 def _proved(session: Session, block: Block, folder: Path, manifest: dict[str, Any]) -> list[CheckResult]:
     """Prove, and return a check for each function; both tools are asked for first."""
+    if manifest.get("contract") == "on":
+        raise UsageError(
+            f"{folder}: it was exported with --contract on, and what a compiler may fuse is not what --prove looks at; "
+            "export it with --contract off"
+        )
     for name, package in (("frama-c", "frama-c-base"), ("gappa", "gappa")):
         tool(name, package)
     session.say(f"{block.name}: Frama-C, function by function; a filter of twelve states takes minutes")
@@ -430,9 +435,6 @@ def _proved(session: Session, block: Block, folder: Path, manifest: dict[str, An
 
 def _bounded(session: Session, block: Block, manifest: dict[str, Any]) -> list[Bound]:
     """Bound what one call loses to rounding, and print it."""
-    if manifest.get("contract") == "on":
-        session.say("  rounding: no bounds, because fused operations are allowed; export with --contract off")
-        return []
     precision = Precision(manifest["precision"])
     bounds = bound_rounding(block, precision, mathematics=manifest.get("mathematics", "own"))
     for line in rounding_text(bounds, precision):

@@ -479,9 +479,10 @@ class Block:
         return Signal("state", kind=Kind.GROUP, members=(*self.memory_signals, *groups))
 
     def param_group(self) -> Signal:
-        """Return the parameters as one group signal, parts nested."""
+        """Return the parameters as one group signal, parts nested; a part without parameters is no member."""
         groups = [replace(part.param_group(), name=name) for name, part in self.parts.items()]
-        return Signal("params", kind=Kind.GROUP, members=(*self.param_signals, *groups))
+        used = [group for group in groups if group.members]
+        return Signal("params", kind=Kind.GROUP, members=(*self.param_signals, *used))
 
     def judge_inputs(self, entry: Entry) -> Condition:
         """Return the condition that the inputs of an entry are within their ranges.

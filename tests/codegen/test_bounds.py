@@ -5,6 +5,7 @@ import subprocess
 from dataclasses import replace
 
 import pytest
+from plantc.codegen import bounds
 from plantc.codegen.bounds import Analysis, Unknown, source_loops
 from plantc.codegen.costs import Cost, within
 from plantc.codegen.crosscheck import make_probes, make_views
@@ -18,8 +19,9 @@ from plantc.codegen.targets import TARGETS, find_toolchain, linked_library
 from plantc.examples.attitude_ekf import attitude_ekf
 from plantc.examples.pendulum import pendulum_ekf
 from plantc.examples.quadrotor_ekf import quadrotor_ekf, quadrotor_kf
+from plantc.symbolic import sqrt
 
-from plantc import NativeView
+from plantc import Block, NativeView
 
 CROSS = ("cortex-m4", "cortex-m7", "rv32")
 
@@ -104,15 +106,40 @@ def test_what_is_measured_is_not_above_the_bound(block, tmp_path, needs):
 
 
 @pytest.mark.parametrize("target", CROSS)
-def test_double_has_bounds_where_the_hardware_has_double(target, tmp_path, needs):
-    needs(f"{TARGETS[target].prefix}gcc")
-    analysis = analysed(pendulum_ekf, emit(pendulum_ekf, "double"), target, tmp_path)
-    bound = analysis.instructions("pendulum_ekf_step")
-    if target == "cortex-m7":
-        assert isinstance(bound, int)
-    else:
-        assert isinstance(bound, Unknown)
-        assert re.search(r"unknown because of (a loop|an indirect jump) in __", str(bound))
+def test_double_has_bounds_also_where_it_is_software(target, tmp_path, needs, monkeypatch):
+    """Products, quotients and roots of subnormal numbers are the longest ways through double arithmetic in software."""
+    needs(f"{TARGETS[target].prefix}gcc", TARGETS[target].emulator)
+    block = Block("soft", doc="double arithmetic")
+    a, b = block.input("a", range=(0, 1)), block.input("b", range=(0, 1))
+    block.entry("times", inputs=[a, b], outputs={"product": a * b})
+    block.entry("over", inputs=[a, b], outputs={"ratio": b / (a + 1)})
+    block.entry("root", inputs=[a], outputs={"root": sqrt(a)})
+    view = TargetView(block, "double", TARGETS[target])
+    values = [0.0, 5e-324, 3e-310, 1e-200, 0.3, 1.0]
+    calls = [(entry, {"a": x, "b": y}) for entry in ("times", "over") for x in values for y in values]
+    calls += [("root", {"a": x}) for x in values]
+    view.calls([Call(entry, view.inputs(entry, given), view.memory(), view.params()) for entry, given in calls])
+    analysis = analysed(block, view.text, target, tmp_path)
+    for name in ("times", "over", "root"):
+        seen = view.most[name].instructions
+        assert seen <= analysis.instructions(f"soft_{name}") < 8 * seen, name
+    monkeypatch.setattr(bounds, "_BIT_LOOPS", {name: dict.fromkeys(row, 0) for name, row in bounds._BIT_LOOPS.items()})
+    planted = analysed(block, view.text, target, tmp_path).instructions("soft_root")
+    assert (planted < view.most["root"].instructions) == (target != "cortex-m7")  # there a root is one instruction
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("target", ["cortex-m4", "rv32"])
+def test_a_filter_in_software_double_stays_within_its_bound(target, tmp_path, needs):
+    needs(f"{TARGETS[target].prefix}gcc", TARGETS[target].emulator)
+    native = NativeView(quadrotor_ekf, "double")
+    probes = make_probes(quadrotor_ekf, "double", make_views(quadrotor_ekf, "double", native), 8, 0)
+    view = TargetView(quadrotor_ekf, "double", TARGETS[target])
+    view.calls([Call(probe.entry, probe.inputs, probe.memory, probe.params) for probe in probes])
+    analysis = analysed(quadrotor_ekf, view.text, target, tmp_path)
+    for name, cost in view.most.items():
+        assert cost.instructions <= analysis.instructions(f"quadrotor_ekf_{name}"), name
+        assert cost.stack <= analysis.stack(f"quadrotor_ekf_{name}"), name
 
 
 def test_a_lower_loop_bound_is_caught(tmp_path, needs):

@@ -370,6 +370,20 @@ def test_without_a_compiler_it_says_what_to_install(model, plantc, monkeypatch):
     fails(plantc("export", model(LOW_PASS), *FAST), 2, "$CC", "no-such-compiler")
 
 
+def test_an_fmu_of_a_block_without_a_step_is_refused_before_the_work(model, plantc, tmp_path):
+    path = model(LOW_PASS.replace('entry("step"', 'entry("filter"'))
+    fails(plantc("export", path, "--fmu", *FAST), 2, "--fmu", "low_pass has no entry step", "filter", "add one")
+    assert not (tmp_path / "generated_c").exists()
+
+
+def test_an_fmu_without_fmpy_says_what_to_install(model, plantc, tmp_path, monkeypatch):
+    from plantc.codegen import fmu
+
+    monkeypatch.setattr(fmu.importlib.util, "find_spec", lambda name: None)
+    fails(plantc("export", model(LOW_PASS), "--fmu", *FAST), 2, "fmpy", "pip install 'plantc[fmu]'")
+    assert not (tmp_path / "generated_c").exists()
+
+
 def plant_a_fault(monkeypatch):
     """From now on the C of the low-pass weighs a little wrong."""
     from dataclasses import replace
@@ -589,6 +603,13 @@ def test_check_proves_what_lies_there(model, plantc, needs, tmp_path):
     bad = plantc("check", folder, "--model", f"{name}:pendulum_ekf", *FAST, "--prove")
     assert bad.status == 1
     assert "FAIL proof of is_held" in bad.err
+
+
+def test_what_may_be_fused_is_not_proved(model, plantc, needs, tmp_path):
+    needs("frama-c", "gappa")
+    name, folder = model(LOW_PASS), tmp_path / "generated_c/low_pass"
+    assert plantc("export", name, *FAST, "--contract", "on").status == 0
+    fails(plantc("check", folder, "--model", name, *FAST, "--prove"), 2, "--contract on", "--contract off")
 
 
 # -- tables that a model brings ---------------------------------------------------------------------------------------
