@@ -37,6 +37,7 @@ from .symbolic.controllers import (
 )
 from .symbolic.design import Gain, ackermann, lqr, place, place_chains
 from .symbolic.estimators import extended_kalman_filter, kalman_filter, steady_state_kalman_filter
+from .symbolic.james_stein import james_stein_estimator
 
 __all__ = [
     "Attitude",
@@ -57,6 +58,7 @@ __all__ = [
     "emit",
     "export",
     "extended_kalman_filter",
+    "james_stein_estimator",
     "kalman_filter",
     "linearise",
     "low_pass",
