@@ -29,8 +29,13 @@ LARGEST_SHARE_AT_SWITCHES = 0.05
 ROUNDING_GROWTH = 100.0
 """A difference up to this many times what one unit in the last place of the memory causes is rounding's own."""
 
+VERDICTS = (Status.BAD_INPUT, Status.BAD_PARAM)
+"""What is said of what the caller gave, which every view knows to the last bit."""
+
 DERIVATIVE_BOUND = 1e-9
 DIFFERENCE_BOUND = 1e-4
+LARGEST_COUNT = 2**32 - 1
+NARROW_GATE = 1e-9
 TRACES = ("nominal", "randomised", "adversarial")
 
 
@@ -74,6 +79,7 @@ class Views:
     native: View
     reference: View | None
     reference_same_precision: View | None
+    interpret_same_limits: View | None = None
 
 
 def make_views(block: Block, precision: str, native: View | None = None) -> Views:
@@ -84,6 +90,7 @@ def make_views(block: Block, precision: str, native: View | None = None) -> View
         native or NativeView(block, precision),
         ReferenceView(block) if has_oracle else None,
         ReferenceView(block, precision) if has_oracle else None,
+        InterpretView(block, limits=precision),
     )
 
 
@@ -321,14 +328,39 @@ def _adversarial(
 def _recoveries(
     block: Block, native: View, plausible: list[Probe], params: Record, probe: Callable[..., Probe]
 ) -> Iterator[Probe]:
-    """Yield steps with counters just below, at and above their limit."""
+    """Yield calls with counters around a limit, and at the largest number.
+
+    With gates as they are, and so narrow that all readings are refused, which counts.
+    """
     counters = [signal.name for signal in block.memory_signals_flat() if signal.kind is Kind.COUNT]
-    limits = {signal.name: 2 for signal in block.param_signals_flat() if signal.kind is Kind.COUNT}
-    if not counters or not limits:
+    limits = [signal.name for signal in block.param_signals_flat() if signal.kind is Kind.COUNT]
+    if not counters:
         return
-    for k, source in enumerate([item for item in plausible if item.entry == "step"][:9]):
-        used = fill(params.copy(), limits)
-        yield probe("step", fill(source.memory.copy(), {name: 1 + k % 3 for name in counters}), source.inputs, used)
+    narrow = fill(params.copy(), {item.name: np.full(item.size, NARROW_GATE) for item in gates(block)})
+    pairs = [(count, limit) for limit in (2,) for count in (1, 2, 3)] if limits else []
+    pairs += [(LARGEST_COUNT + k, limit) for k in (-1, 0) for limit in ((0, LARGEST_COUNT) if limits else (0,))]
+    for name, entry in block.entries.items():
+        sources = [item for item in plausible if item.entry == name]
+        flags = {signal.name: True for signal in entry.inputs if signal.kind is Kind.FLAG}
+        for k, (count, limit) in enumerate(pairs * 3 if sources else []):
+            source = sources[k % len(sources)]
+            used = fill((params if k < len(pairs) else narrow).copy(), dict.fromkeys(limits, limit))
+            inputs = fill(source.inputs.copy(), flags) if k % 2 else source.inputs
+            yield probe(name, fill(source.memory.copy(), dict.fromkeys(counters, count)), inputs, used)
+
+
+def gates(block: Block) -> list[Signal]:
+    """Return the parameters beyond which what is read is refused: off by default, or set by the calls inside a block."""
+    hidden = {place.name for entry in block.entries.values() for _, place in entry.hidden}
+    for prefix, part in block.parts.items():
+        hidden |= {f"{prefix}.{signal.name}" for signal in gates(part)}
+    return [
+        signal
+        for signal in block.param_signals_flat()
+        if signal.kind is Kind.REAL
+        and signal.low[0] <= NARROW_GATE <= signal.high[0]
+        and (signal.name in hidden or (signal.default is not None and not any(signal.default) and signal.low[0] == 0))
+    ]
 
 
 def _long_gaps(
@@ -443,6 +475,7 @@ class _Lockstep:
     def __init__(self, block: Block, precision: str, views: Views):
         self.block, self.precision, self.views = block, precision, views
         self.single = precision == "float"
+        self.exact = views.interpret_same_limits or InterpretView(block, limits=precision)
         self.pairs: dict[str, CheckResult] = {}
         self.angles = {signal.name for signal in block.memory_signals_flat() if signal.angle}
         for entry in block.entries.values():
@@ -464,6 +497,8 @@ class _Lockstep:
         self._untouched(probe, native)
         interpret = self._converted(self.views.interpret, probe)
         margin = interpret.margin
+        exact = self._converted(self.exact, probe) if self.single else interpret
+        self._verdicts(probe, native, exact)
         reference = None if self.views.reference is None else self._converted(self.views.reference, probe)
         if reference is not None:
             self._pair("interpret = reference", probe, interpret, reference, margin, 1e-9)
@@ -476,6 +511,7 @@ class _Lockstep:
         if other is not None:
             same = self._converted(other, probe)
             self._statuses("float statuses = reference in float", probe, native, same, margin, other)
+        self._statuses("float statuses = interpret", probe, native, exact, exact.margin)
         best = interpret if reference is None else reference
         self._pair("float = double", probe, native, best, margin, self.block.float_bound, statuses=False)
 
@@ -522,6 +558,26 @@ class _Lockstep:
                         ),
                     )  # fmt: skip
 
+    def _verdicts(self, probe: Probe, native: Answer, right: Answer) -> None:
+        """What a caller gave is refused by the C where the program refuses it, to the last bit: no margin excuses it.
+
+        Only where an entry inside judges what was computed may a change as large as rounding tip the verdict.
+        """
+        result = self._result("verdicts on inputs and parameters", 0.0)
+        ours, theirs = self._all_statuses(probe.entry, native), self._all_statuses(probe.entry, right)
+        pairs = [(a, b) for a, b in zip(ours, theirs, strict=True) if a[1] in VERDICTS or b[1] in VERDICTS]
+        result.calls += bool(pairs)
+        if any(a != b for a, b in pairs) and not self._either_status(probe, {ours, theirs}, None):
+            signal, first, second = next((a[0], a[1], b[1]) for a, b in pairs if a != b)
+            self._fail(result, self._status_mismatch(probe, signal, ("native", first), ("interpret", second)))
+
+    def _status_mismatch(self, probe: Probe, signal: str, left: tuple[str, int], right: tuple[str, int]) -> Mismatch:
+        """Return two statuses that differ, by their names."""
+        return Mismatch(
+            probe.trace, probe.step, probe.entry, signal, left[0], Status(left[1]).name, right[0], Status(right[1]).name,
+            abs(left[1] - right[1]),
+        )  # fmt: skip
+
     def _all_statuses(self, entry: str, answer: Answer) -> tuple[tuple[str, int], ...]:
         """Return the status of a call and those its outputs report."""
         outputs = flatten(answer.outputs)
@@ -544,13 +600,7 @@ class _Lockstep:
             return False
         views = name.replace("statuses ", "").split(" = ")
         signal, first, second = next((a[0], a[1], b[1]) for a, b in zip(ours, theirs, strict=True) if a != b)
-        self._fail(
-            result,
-            Mismatch(
-                probe.trace, probe.step, probe.entry, signal, views[0], Status(first).name, views[-1], Status(second).name,
-                abs(first - second),
-            ),
-        )  # fmt: skip
+        self._fail(result, self._status_mismatch(probe, signal, (views[0], first), (views[-1], second)))
         return False
 
     def _pair(

@@ -150,13 +150,24 @@ def _dotted(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 class InterpretView(View):
-    """The program in Python: CasADi's virtual machine for functions, NumPy matrix algebra for kernels. Double only."""
+    """The program in Python: CasADi's virtual machine for functions, NumPy matrix algebra for kernels. Double only.
+
+    Parameters
+    ----------
+    block : Block
+        What to run.
+    patches : dict, optional
+        CasADi functions to use instead of those of the same name: for tests that plant a fault.
+    limits : {"double", "float"}
+        Precision in which ends of ranges and other numbers that values are compared with are held, as in the C.
+    """
 
     name = "interpret"
 
-    def __init__(self, block: Block, patches: dict[str, Any] | None = None):
+    def __init__(self, block: Block, patches: dict[str, Any] | None = None, limits: str = "double"):
         super().__init__(block, "double")
         self.patches = patches or {}
+        self.limits = Precision(limits).dtype
 
     def call(self, entry: str, memory: Record, inputs: Record, params: Record) -> Answer:
         """Run the entry's program."""
@@ -168,7 +179,7 @@ class InterpretView(View):
         for name, value in flatten(inputs).items():
             values[Place("in", name)] = value
         visits: list[Visit] = []
-        outcome = run_entry(self.block, program, values, flatten(params), self.patches, visits)
+        outcome = run_entry(self.block, program, values, flatten(params), self.patches, visits, real=self.limits)
         if outcome.status < 0:
             return Answer(outcome.status, memory.copy(), self.outputs(entry), outcome.margin, tuple(visits))
         answer = self.memory() if program.checks_params else memory.copy()

@@ -101,6 +101,10 @@ class Frame:
         Where the running statement stands in the entry's body.
     visits : list of Visit or None
         What was executed so far, if it is asked for.
+    real : type
+        Floating type in which the C holds the numbers that are compared with; values stay double.
+    computed : frozenset of str
+        Inputs that a calling entry computed; all others are the caller's own, and are compared exactly.
     """
 
     block: Block
@@ -112,6 +116,8 @@ class Frame:
     entry: str = ""
     trail: Trail = ()
     visits: list[Visit] | None = None
+    real: type = float
+    computed: frozenset[str] = frozenset()
 
     def visited(self, statement: Statement, outcome: str = "") -> None:
         """Record that a statement ran, or what came of it."""
@@ -123,6 +129,18 @@ class Frame:
         if isinstance(operand, Element):
             return float(self.values[operand.place].ravel()[operand.index])
         return operand
+
+    def bound(self, operand: Operand) -> float:
+        """Return the value of an operand of a comparison; a number as the C has it."""
+        return self.read(operand) if isinstance(operand, Element) else float(self.real(operand))
+
+    def is_exact(self, operand: Operand) -> bool:
+        """Whether every view has the same value: a number, an integer, or what the caller gave."""
+        if not isinstance(operand, Element):
+            return True
+        place = operand.place
+        given = place.space == "param" or (place.space == "in" and place.name not in self.computed)
+        return given or self.values[place].dtype.kind in "biu"
 
     def raise_to(self, status: Status) -> None:
         """Keep the highest positive status."""
@@ -163,9 +181,10 @@ class Within:
     def holds(self, frame: Frame) -> bool:
         value = frame.values[self.place].ravel()[self.first : self.first + len(self.low)]
         ok = True
-        computed = self.place.space not in ("in", "param")  # what a caller gives is compared exactly in every view
-        for item, low, high in zip(value, self.low, self.high, strict=True):
-            if computed:
+        exact = frame.is_exact(Element(self.place))
+        ends = zip(map(frame.bound, self.low), map(frame.bound, self.high), strict=True)
+        for item, (low, high) in zip(value, ends, strict=True):
+            if not exact:
                 frame.near(float(item), low)
                 frame.near(float(item), high)
             ok = ok and bool(low <= item <= high)
@@ -182,8 +201,9 @@ class Compare:
     scale: Operand | None = None
 
     def holds(self, frame: Frame) -> bool:
-        a, b = frame.read(self.left), frame.read(self.right)
-        frame.near(a, b, None if self.scale is None else frame.read(self.scale))
+        a, b = frame.bound(self.left), frame.bound(self.right)
+        if not (frame.is_exact(self.left) and frame.is_exact(self.right)):
+            frame.near(a, b, None if self.scale is None else frame.read(self.scale))
         return {"<": a < b, "<=": a <= b, ">": a > b, ">=": a >= b}[self.relation]
 
 
@@ -301,6 +321,10 @@ class Kernel:
     def names(self) -> tuple[tuple[str, ...], ...]:
         """Return C name stems for the elements of what it reads."""
         return tuple(tuple(f"{place.name}_{index}" for index in range(size)) for place, size in self.reads)
+
+    def order(self, output: int) -> Sequence[int]:
+        """Return in which order the elements of an output are best computed, so that few numbers are kept at a time."""
+        return range(self.writes[output][1])
 
     def run(self, frame: Frame) -> None:
         """Execute the dense form."""
@@ -476,12 +500,26 @@ class HoldFactors(HoldVariances):
             for j in range(i, self.size)
         )
 
+    def certain(self) -> tuple[float, float]:
+        """Return a magnitude of U's elements and a sum of D with which no variance is above any ceiling.
+
+        With |u_ij| <= m, m >= 1, a variance sum_j u_ij^2 d_j is at most m^2 sum_j d_j.
+        """
+        ceiling = min(self.ceiling)
+        most = max(1.0, ceiling ** (1.0 / 3.0))
+        return most, ceiling / most**2
+
     def run(self, frame: Frame) -> None:
         packed = np.array(frame.values[self.target], dtype=float)
         n, diagonal = self.size, [packed_index(self.size, i, i) for i in range(self.size)]
         floor, ceiling = np.array(self.floor), np.array(self.ceiling)
         before = frame.values.get(Place("memory", self.target.name))
-        frame.visited(self, "looked at closely")
+        most, total = self.certain()
+        beside = np.delete(packed, diagonal)
+        if not (
+            np.all(np.abs(beside) <= most) and np.sum(packed[diagonal]) <= total and np.all(packed[diagonal] >= floor)
+        ):
+            frame.visited(self, "looked at closely")  # what a fast test does not pass
         for at, low in zip(diagonal, floor, strict=True):
             frame.near(float(packed[at]), 0.0, None if before is None else float(before[at]))
             frame.near(float(packed[at]), float(low))
@@ -543,11 +581,17 @@ class Call:
         if not entry.checks_params:
             for signal in block.memory_signals_flat():
                 values[Place("memory", signal.name)] = frame.values[Place(source, prefix + signal.name)]
+        computed = []
         for name, argument in self.arguments:
             given = frame.values[argument] if isinstance(argument, Place) else np.array([argument])
             values[Place("in", name)] = given
+            if isinstance(argument, Place) and not frame.is_exact(Element(argument)):
+                computed.append(name)
         params = {name.removeprefix(prefix): value for name, value in frame.params.items() if name.startswith(prefix)}
-        outcome = run_entry(block, entry, values, params, frame.patches, frame.visits, _path(frame.entry) + prefix)
+        path = _path(frame.entry) + prefix
+        outcome = run_entry(
+            block, entry, values, params, frame.patches, frame.visits, path, frame.real, frozenset(computed)
+        )
         frame.margin = min(frame.margin, outcome.margin)
         if outcome.status < 0:
             raise Refused(outcome.status)
@@ -632,6 +676,8 @@ def run_entry(
     patches: dict[str, Any] | None = None,
     visits: list[Visit] | None = None,
     path: str = "",
+    real: type = float,
+    computed: frozenset[str] = frozenset(),
 ) -> Outcome:
     """Run an entry: compute, judge; the caller commits.
 
@@ -651,8 +697,15 @@ def run_entry(
         Takes what was executed.
     path : str
         Names of the parts that lead to the block, a dot after each.
+    real : type
+        Floating type in which the C holds the numbers that values are compared with.
+    computed : frozenset of str
+        Inputs that a calling entry computed.
     """
-    frame = Frame(block, dict(values), params, patches=patches or {}, entry=path + entry.name, visits=visits)
+    frame = Frame(
+        block, dict(values), params, patches=patches or {}, entry=path + entry.name, visits=visits, real=real,
+        computed=computed,
+    )  # fmt: skip
     for name, value in params.items():
         frame.values[Place("param", name)] = value
     for signal, place in entry.hidden:

@@ -72,7 +72,7 @@ def test_the_version_is_in_the_changelog(project):
 
 # -- imports run one way ----------------------------------------------------------------------------------------------
 
-ORDER = ["plantc.reference", "plantc.symbolic", "plantc.codegen"]
+ORDER = ["plantc.reference", "plantc.symbolic", "plantc.codegen", "plantc.simulation"]
 
 
 @pytest.mark.parametrize("package", ORDER)

@@ -152,3 +152,20 @@ def test_designed_numbers_reach_a_composition_of_compositions():
     check = cross_check(changed.parts["inner"], steps=20)  # the oracle has the new gain, too
     assert check.passed, [str(item) for item in check.failures]
     assert any(result.name == "native = reference" for result in check.results)
+
+
+def test_a_part_without_parameters_and_memory_can_be_composed():
+    twice = Block("twice")
+    raw = twice.input("raw", unit="m", range=(-50, 50))
+    twice.entry("step", inputs=[raw], outputs={"value": 2 * raw})
+    block = connect({"twice": twice, "smooth": low_pass()}, {"smooth.raw": "twice.value"}, "chain")
+    view = NativeView(block)
+    answer = view.call("step", view.init(), view.inputs("step", {"twice_raw": 8.0}), view.params())
+    assert answer.memory["smooth"]["smooth"] == 4.0
+    alone = NativeView(connect({"twice": twice}, {}, "alone"))
+    assert (
+        alone.call("step", alone.init(), alone.inputs("step", {"twice_raw": 8.0}), alone.params()).outputs["twice"][
+            "value"
+        ]
+        == 16
+    )

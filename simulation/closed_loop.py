@@ -1,0 +1,441 @@
+"""The closed loop of a plant and a controller: as one Block that is compiled, and step by step over any two Views."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..codegen.batch import Batch, BatchText, batch_text
+from ..codegen.layout import flatten
+from ..codegen.views import View
+from ..symbolic.analysis import OperatingPoint
+from ..symbolic.block import Block
+from ..symbolic.composition import Delay, connect, delay
+from ..symbolic.errors import ModelError
+from ..symbolic.plant import Plant
+from ..symbolic.signals import Kind, Signal
+from ..symbolic.simulated import NoiseInput, noise_inputs, simulated_plant
+from .metrics import History, StatePlace
+
+Array = NDArray[np.float64]
+Columns = Callable[[str], NDArray[Any]]
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where the quantities of a run lie in the loop's memory and outputs, by dotted names.
+
+    Attributes
+    ----------
+    states : tuple of StatePlace
+        The plant's.
+    point : tuple of float
+        The set point x*.
+    truth, estimate : tuple of str
+        Memory fields, one for each state; `estimate` is empty if the controller keeps none.
+    spread : str
+        Memory field of the covariance, or of its factors; empty if there is none.
+    nis : dict of str to str
+        Sensor -> output.
+    commands : tuple of str
+        Outputs, one for each input of the plant.
+    """
+
+    states: tuple[StatePlace, ...]
+    point: tuple[float, ...]
+    truth: tuple[str, ...]
+    estimate: tuple[str, ...]
+    spread: str
+    nis: dict[str, str]
+    commands: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class ClosedLoop:
+    """A plant and a controller, connected; made by `closed_loop`.
+
+    Attributes
+    ----------
+    block : Block
+        The whole loop, with the parts "plant" and "controller".
+    truth, controller : Block
+        Its parts.
+    noises : tuple of NoiseInput
+        Noises of the plant; in the loop the input is called ``plant_<name>``.
+    point : OperatingPoint
+        The set point.
+    held : dict of str to float
+        Inputs of the loop that are the same in every step, such as the flags of the readings.
+    layout : Layout
+        Where everything lies.
+    """
+
+    block: Block
+    truth: Block
+    controller: Block
+    noises: tuple[NoiseInput, ...]
+    point: OperatingPoint
+    held: dict[str, float]
+    layout: Layout
+
+    @cached_property
+    def text(self) -> BatchText:
+        """The C of the loop, with the driver that runs it."""
+        return batch_text(self.block)
+
+    def estimate_parameters(self, x: Array) -> dict[str, Array]:
+        """Return the parameters with which the estimator starts at the state x."""
+        starts = [f"{name}_0" for name in self.layout.estimate]
+        return dict(zip(starts, self.pieces(x), strict=True)) if starts else {}
+
+    def truth_parameters(self, x: Array) -> dict[str, Array]:
+        """Return the parameters with which the plant starts at the state x."""
+        return dict(zip([f"{name}_0" for name in self.layout.truth], self.pieces(x), strict=True))
+
+    def command_parameters(self, u: Array) -> dict[str, Array]:
+        """Return the parameters with which the first command is u: of every delay of a command."""
+        answer, start = {}, 0
+        known = {signal.name for signal in self.block.param_signals_flat()}
+        for symbol in self.point.plant.inputs:
+            name, value = symbol.signal.name, u[start : start + symbol.signal.size]
+            start += symbol.signal.size
+            answer[f"delay_plant_{name}_0"] = value
+            for part in self.controller.parts:
+                inner = f"controller.delay_{part}_{name}_0"
+                if inner in known:
+                    answer[inner] = value
+        return answer
+
+    def pieces(self, x: Array) -> list[Array]:
+        """Return a state vector by states."""
+        ends = np.cumsum([state.size for state in self.layout.states])
+        return [x[end - state.size : end] for state, end in zip(self.layout.states, ends, strict=True)]
+
+
+def closed_loop(
+    plant: Plant,
+    controller: Block,
+    point: Mapping[Any, Any],
+    *,
+    held: Mapping[str, float] | None = None,
+    name: str = "loop",
+) -> ClosedLoop:
+    """Connect a plant, simulated, with a controller.
+
+    In each step the plant moves with the command of the step before, and is read; then the controller takes the readings
+    and commands: x(k) = f(x(k-1), u(k-1)) + noise, z(k) = h(x(k)) + noise, u(k) = controller(z(k)).
+
+    Parameters
+    ----------
+    plant : Plant
+        Discrete: the truth. It need not be the plant that the controller was made for.
+    controller : Block
+        Has an entry `step`. An output named like an input of the plant commands it; an input named like a sensor, alone or
+        behind the name of a part, gets its reading; ``has_<sensor>`` is held at true.
+    point : OperatingPoint or dict
+        The set point x*, u*: state or input -> value. Plant, estimate and commands start there.
+    held : dict, optional
+        Other inputs of the controller -> a constant value.
+    name : str
+        Name of the Block.
+
+    Raises
+    ------
+    ModelError
+        If an input of the plant is not commanded or is by two outputs, or an input of the controller is neither wired nor held.
+    """
+    where = OperatingPoint.at(plant, point)
+    truth = simulated_plant(plant, around={**where.states, **where.inputs}, name=f"{plant.name}_truth")
+    commands = [_command(controller, symbol.signal) for symbol in plant.inputs]
+    wires: dict[str, str | Delay] = {}
+    for symbol, command in zip(plant.inputs, commands, strict=True):
+        wires[f"plant.{symbol.signal.name}"] = delay(f"controller.{command}", where.inputs[symbol.signal.name])
+    constants: dict[str, float] = {}
+    given = dict(held or {})
+    sensors = {sensor.signal.name: sensor.signal.size for sensor in plant.sensors}
+    for signal in controller.entries["step"].inputs:
+        sensor = _sensor_of(signal, sensors)
+        if signal.name in given:
+            constants[f"controller_{signal.name}"] = float(given.pop(signal.name))
+        elif sensor:
+            wires[f"controller.{signal.name}"] = f"plant.{sensor}"
+        elif signal.kind is Kind.FLAG and (signal.name.startswith("has_") or "_has_" in signal.name):
+            constants[f"controller_{signal.name}"] = 1.0
+        else:
+            raise ModelError(
+                f"{controller.name}: its input {signal.name!r} is no sensor of {plant.name} ({', '.join(sensors) or 'none'}); "
+                f"give it a value: held={{{signal.name!r}: ...}}"
+            )
+    if given:
+        raise ModelError(f"{controller.name}: held= names {sorted(given)}, which are no inputs of it")
+    block = connect({"plant": truth, "controller": controller}, wires, name)
+    estimate = _estimate(controller, plant)
+    layout = Layout(
+        tuple(
+            StatePlace(s.signal.name, s.signal.size, "attitude" if s.attitude else "angle" if s.signal.angle else "plain")
+            for s in plant.states
+        ),
+        tuple(float(item) for item in where.x),
+        tuple(f"plant.{state.signal.name}" for state in plant.states),
+        tuple(f"controller.{estimate}{state.signal.name}" for state in plant.states) if estimate is not None else (),
+        _spread(controller, estimate, plant.error_size) if estimate is not None else "",
+        _nis(controller, sensors),
+        tuple(f"controller.{command}" for command in commands),
+    )  # fmt: skip
+    return ClosedLoop(block, truth, controller, noise_inputs(plant), where, constants, layout)
+
+
+def _leaves(signals: tuple[Signal, ...], prefix: str = "") -> list[Signal]:
+    answer: list[Signal] = []
+    for signal in signals:
+        if signal.kind is Kind.GROUP:
+            answer += _leaves(signal.members, f"{prefix}{signal.name}.")
+        else:
+            answer.append(replace(signal, name=prefix + signal.name))
+    return answer
+
+
+def _command(controller: Block, wanted: Signal) -> str:
+    if "step" not in controller.entries:
+        raise ModelError(f"{controller.name}: it has no entry 'step'; a controller is called by it")
+    outputs = _leaves(controller.entries["step"].outputs)
+    found = [signal.name for signal in outputs if signal.name.split(".")[-1] == wanted.name]
+    if len(found) != 1:
+        has = ", ".join(signal.name for signal in outputs) or "none"
+        raise ModelError(
+            f"{controller.name}: {len(found)} of its outputs are named {wanted.name!r}, an input of the plant; exactly one has to "
+            f"command it; the outputs are {has}"
+        )
+    return found[0]
+
+
+def _sensor_of(signal: Signal, sensors: Mapping[str, int]) -> str:
+    """Return the sensor that an input of a controller reads, or an empty string."""
+    if signal.kind is not Kind.REAL:
+        return ""
+    fits = [name for name, size in sensors.items() if size == signal.size and f"_{signal.name}".endswith(f"_{name}")]
+    return max(fits, key=len, default="")
+
+
+def _estimate(controller: Block, plant: Plant) -> str | None:
+    """Return the prefix of the memory fields of a controller that are an estimate of the plant's state, or None."""
+    sizes = {signal.name: signal.size for signal in controller.memory_signals_flat()}
+    first = plant.states[0].signal.name
+    for name in sizes:
+        prefix = name.removesuffix(first)
+        if (
+            f"{prefix}{first}" == name
+            and (not prefix or prefix.endswith("."))
+            and all(sizes.get(prefix + state.signal.name) == state.signal.size for state in plant.states)
+        ):
+            return prefix
+    return None
+
+
+def _spread(controller: Block, prefix: str, size: int) -> str:
+    sizes = {signal.name: signal.size for signal in controller.memory_signals_flat()}
+    for field in ("covariance", "factors"):
+        if sizes.get(prefix + field) == size * (size + 1) // 2:
+            return f"controller.{prefix}{field}"
+    return ""
+
+
+def _nis(controller: Block, sensors: Mapping[str, int]) -> dict[str, str]:
+    found = {}
+    for signal in _leaves(controller.entries["step"].outputs):
+        *_, group, leaf = ["", *signal.name.split(".")]
+        if leaf == "nis" and group in sensors:
+            found[group] = f"controller.{signal.name}"
+    return found
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Running
+
+
+def history_of(
+    layout: Layout, memory: Columns, outputs: Columns, statuses: NDArray[np.int32], asked: int, refused: str
+) -> History:
+    """Return the history of a run from what recorded it.
+
+    Parameters
+    ----------
+    layout : Layout
+        Where everything lies.
+    memory, outputs : callable
+        Dotted name -> array (steps,) or (steps, size).
+    statuses : int array (steps,)
+        Of each step.
+    asked : int
+        Steps that were to be run.
+    refused : str
+        Status that ended the run, or empty.
+    """
+    steps = len(statuses)
+
+    def stacked(columns: Columns, names: tuple[str, ...]) -> Array:
+        pieces = [np.reshape(columns(name), (steps, -1)) for name in names]
+        return np.concatenate([np.zeros((steps, 0)), *pieces], axis=1)
+
+    return History(
+        layout.states,
+        np.array(layout.point),
+        stacked(memory, layout.truth),
+        stacked(memory, layout.estimate) if layout.estimate else None,
+        stacked(memory, (layout.spread,)) if layout.spread else None,
+        layout.spread.endswith("factors"),
+        {name: np.asarray(outputs(field), dtype=float).ravel() for name, field in layout.nis.items()},
+        stacked(outputs, layout.commands),
+        statuses,
+        asked,
+        refused,
+    )
+
+
+def run_batch(
+    batch: Batch,
+    layout: Layout,
+    noise: Mapping[str, Array],
+    steps: int,
+    *,
+    params: Mapping[str, Any] | None = None,
+    held: Mapping[str, float] | None = None,
+) -> History:
+    """Run the compiled loop: one C call.
+
+    Parameters
+    ----------
+    batch : Batch
+        Of ``loop.text``.
+    layout : Layout
+        Of the loop.
+    noise : dict
+        Noise -> values that are added as they are, (steps, size); noises left out are zero.
+    steps : int
+        How many.
+    params : dict, optional
+        Dotted parameter of the loop -> value.
+    held : dict, optional
+        `ClosedLoop.held`.
+    """
+    inputs = batch.inputs(steps)
+    for name, value in (held or {}).items():
+        inputs[name] = value
+    for name, values in noise.items():
+        target = inputs[f"plant_{name}"]
+        target[...] = np.reshape(values, target.shape)
+    answer = batch.run(inputs, batch.params(dict(params or {})))
+    refused = answer.status.name if answer.steps < steps else ""
+
+    def column(records: NDArray[Any]) -> Columns:
+        def at(name: str) -> NDArray[Any]:
+            value = records
+            for piece in name.split("."):
+                value = value[piece]
+            return value
+
+        return at
+
+    return history_of(layout, column(answer.memory), column(answer.outputs), answer.statuses, steps, refused)
+
+
+def simulate(
+    loop: ClosedLoop,
+    plant: View,
+    controller: View,
+    steps: int,
+    *,
+    noise: Mapping[str, Array] | None = None,
+    params: Mapping[str, Any] | None = None,
+) -> History:
+    """Run the loop call by call over any two views.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+        The loop.
+    plant, controller : View
+        Of ``loop.truth`` and ``loop.controller``: interpret, reference, native or on a target.
+    steps : int
+        How many.
+    noise : dict, optional
+        Noise -> values that are added as they are, (steps, size); noises left out are zero.
+    params : dict, optional
+        Dotted parameter of the loop -> value, as for the compiled loop.
+
+    Returns
+    -------
+    History
+        As that of the compiled loop.
+
+    Raises
+    ------
+    ValueError
+        If a view runs another block, or `init` refuses a parameter.
+    """
+    for view, block in ((plant, loop.truth), (controller, loop.controller)):
+        if view.block is not block:
+            raise ValueError(
+                f"the view runs {view.block.name!r}, the loop has {block.name!r} there; make it of the loop's"
+            )
+    given = _parameters(loop, params or {})
+    settings = {part: _own(view, part, given) for part, view in (("plant", plant), ("controller", controller))}
+    states = {"plant": plant.init(settings["plant"]), "controller": controller.init(settings["controller"])}
+    names = [symbol.signal.name for symbol in loop.point.plant.inputs]
+    command = {name: given[f"delay_plant_{name}_0"] for name in names}
+    sources = dict(zip(names, [item.removeprefix("controller.") for item in loop.layout.commands], strict=True))
+    held = {name.removeprefix("controller_"): value for name, value in loop.held.items()}
+    sensors = {sensor.signal.name: sensor.signal.size for sensor in loop.point.plant.sensors}
+    wired = {s.name: _sensor_of(s, sensors) for s in loop.controller.entries["step"].inputs if s.name not in held}
+    memories: list[dict[str, Any]] = []
+    outputs: list[dict[str, Any]] = []
+    statuses: list[int] = []
+    refused = ""
+    for k in range(steps):
+        drawn = {name: values[k] for name, values in (noise or {}).items()}
+        moved = plant.call("step", states["plant"], plant.inputs("step", {**command, **drawn}), settings["plant"])
+        if moved.status < 0:
+            refused = moved.status.name
+            break
+        readings = {name: moved.outputs[sensor] for name, sensor in wired.items()}
+        inputs = controller.inputs("step", {**held, **readings})
+        acted = controller.call("step", states["controller"], inputs, settings["controller"])
+        if acted.status < 0:
+            refused = acted.status.name
+            break
+        states = {"plant": moved.memory, "controller": acted.memory}
+        told = flatten(acted.outputs)
+        command = {name: told[source] for name, source in sources.items()}
+        memories.append(_prefixed("plant.", moved.memory) | _prefixed("controller.", acted.memory))
+        outputs.append(_prefixed("controller.", acted.outputs))
+        statuses.append(max(int(moved.status), int(acted.status)))
+
+    def column(records: list[dict[str, Any]]) -> Columns:
+        return lambda name: np.array([record[name] for record in records], dtype=float)
+
+    return history_of(
+        loop.layout, column(memories), column(outputs), np.array(statuses, dtype=np.int32), steps, refused
+    )
+
+
+def _parameters(loop: ClosedLoop, changed: Mapping[str, Any]) -> dict[str, Any]:
+    given: dict[str, Any] = {signal.name: signal.default for signal in loop.block.param_signals_flat()}
+    unknown = sorted(set(changed) - set(given))
+    if unknown:
+        raise ValueError(f"{unknown[0]!r} is no parameter of the loop; it has {', '.join(given)}")
+    return {**given, **changed}
+
+
+def _own(view: View, part: str, given: Mapping[str, Any]) -> Any:
+    prefix = f"{part}."
+    own = {key.removeprefix(prefix): value for key, value in given.items() if key.startswith(prefix)}
+    return view.params(**{key.replace(".", "__"): value for key, value in own.items()})
+
+
+def _prefixed(prefix: str, record: Any) -> dict[str, Any]:
+    return {prefix + key: value for key, value in flatten(record).items()}
