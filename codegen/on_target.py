@@ -14,12 +14,13 @@ import numpy as np
 
 from ..symbolic.block import Block
 from .bounds import Analysis, Bound, Unknown, source_loops
-from .costs import Cost, within, written
+from .compiler import contraction_flag
+from .costs import Cost, deepest, reasons, within, written
 from .crosscheck import DOUBLE_BOUND, CrossCheck, FrozenStream, Probe, compare_answers, default_scenario
 from .emit import CText
 from .emulator import Call, TargetView
 from .findings import CheckResult, Findings, Mismatch
-from .gates import object_gates
+from .gates import build_plain, object_gates
 from .layout import flatten, inputs_dtype, memory_dtype, outputs_dtype, params_dtype
 from .objects import ObjectError, read_image
 from .options import Options
@@ -308,18 +309,19 @@ def _target_costs(view: TargetView) -> Findings:
         whole = linked_library(view.toolchain, view.text, list(block.entries), Path(name), contract=view.contract)
         linked, own = Sizes.of(whole), Sizes.of(Path(name) / f"{block.name}.o")
         image = read_image(Path(name) / f"{block.name}.o")
-        checks = object_gates(image, view.text, target.name)
+        flags = [*view.toolchain.flags, contraction_flag(view.contract)]
+        plain = build_plain(view.toolchain.run, flags, view.text, Path(name))
+        checks = object_gates(image, view.text, target.name, plain)
         analysis = analysis_of(block, view.text, whole)
     assert own is not None, "targets are ELF"
     assert linked is not None, "targets are ELF"
-    stack = max(item.stack for item in view.most.values())
-    flash = linked.text + linked.data
-    ram = linked.data + linked.bss + _instance(block, view.precision) + stack
-    _refuse_what_does_not_fit(block, target, flash, ram)
     entries = [name for name in block.entries if name in view.most]
     bounds = _bounds(block, analysis, view.toolchain)
-    instructions = {name: Cost.of(view.most[name].instructions, bounds[name][0]) for name in entries}
     stacks = {name: Cost.of(view.most[name].stack, bounds[name][1]) for name in entries}
+    flash = linked.text + linked.data
+    ram = linked.data + linked.bss + _instance(block, view.precision) + deepest(stacks)
+    _refuse_what_does_not_fit(block, target, flash, ram)
+    instructions = {name: Cost.of(view.most[name].instructions, bounds[name][0]) for name in entries}
     checks.append(within("instructions", target.name, instructions))
     checks.append(within("stack", target.name, stacks, WORD))
     facts = {
@@ -331,9 +333,10 @@ def _target_costs(view: TargetView) -> Findings:
         "linked": {**linked.as_dict(), "note": "the library with the functions it calls, without start-up code"},
         "flash": {"needed": flash, "available": target.flash},
         "ram": {
-            "needed": ram,
+            "needed": f"unknown, at least {ram}" if reasons(stacks) else ram,
             "available": target.ram,
-            "note": "data, one instance with parameters, largest inputs and outputs, deepest stack that was painted",
+            "note": "data, one instance with parameters, largest inputs and outputs, the greatest bound on the stack"
+            + ("" if not reasons(stacks) else ", which is not known of all: " + "; ".join(reasons(stacks))),
         },
         **written("instructions", instructions),
         **written("stack", stacks),
