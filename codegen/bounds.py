@@ -60,66 +60,69 @@ _NUMBER = re.compile(r"^\(*(\d+)U?\)*$")
 def source_loops(text: str) -> list[SourceLoop]:
     """Find the loops of a C file and read off how often each can turn.
 
-    Understood is the manner of this package: ``for (i = A; i < B; i++)`` (also with ``<=``, ``i = i + 4U``, a further
-    condition joined by ``&&``, downwards by ``i > 0U; i--``), where B is a number or the counter of a loop around it, and
-    nothing in the body writes the counter. Of any other loop, and of ``while``, ``do`` and ``goto``, the trips are None.
+    A loop is found by its word, wherever that stands, in a macro too. Understood is the manner of this package:
+    ``for (i = A; i < B; i++)`` (also with ``<=``, ``i = i + 4U``, a further condition joined by ``&&``, downwards by
+    ``i > 0U; i--``), where B is a number or the counter of a loop around it, the body is in braces, and nothing in it
+    writes the counter. Of any other loop, and of ``while``, ``do`` and ``goto``, the trips are None.
 
     Parameters
     ----------
     text : str
-        The C, one statement a line, braces on lines of their own.
+        The C.
     """
-    lines = _without_comments(text).split("\n")
+    code = without_comments(text)
+    functions = _function_of_lines(code.split("\n"))
     loops: list[SourceLoop] = []
-    open_loops: list[tuple[str, int]] = []  # (counter, greatest value of it) and the depth it ends at
-    function, depth = "", 0
-    ends: list[int] = []
-    index = 0
-    while index < len(lines):
-        line = lines[index].strip()
-        while ends and index > ends[-1]:
-            ends.pop()
-            open_loops.pop()
-        if depth == 0 and (named := re.match(r"^(?:static )?[\w *]*?\b(\w+)\(", line)):
-            function = named.group(1)
-        if re.match(r"^(for|while|do|goto)\b", line):
-            head, last_of_head = _whole_head(lines, index)
-            last = _end_of_body(lines, last_of_head)
-            body = "\n".join(lines[last_of_head + 1 : last + 1])
-            counter, trips, greatest = _trips(head, body, dict(open_loops))
-            loops.append(SourceLoop(function, index + 1, last + 1, trips, head))
-            open_loops.append((counter if trips is not None else "", greatest))
-            ends.append(last)
-        depth += line.count("{") - line.count("}")
-        index += 1
+    around: list[tuple[int, str, int]] = []  # where a loop ends, its counter, the greatest value of it
+    for found in re.finditer(r"\b(for|while|do|goto)\b", code):
+        begin = found.start()
+        around = [item for item in around if item[0] > begin]
+        opened = found.end() if found[1] == "do" else _closing(code, found.end(), "()")
+        brace = re.compile(r"\s*\{").match(code, opened)
+        end = _closing(code, opened, "{}") if brace else _after(code, ";", opened)
+        head = " ".join(code[begin : _after(code, ";", begin) if found[1] == "goto" else opened].split())
+        counter, trips, greatest = _trips(head, code[opened:end], {name: most for _, name, most in around if name})
+        trips = trips if brace else None
+        first, last = (code.count("\n", 0, at) for at in (begin, max(begin, end - 1)))
+        loops.append(SourceLoop(functions[first], first + 1, last + 1, trips, head))
+        around.append((end, counter if trips is not None else "", greatest))
     return loops
 
 
-def _without_comments(text: str) -> str:
-    """Blank out comments and strings, keeping the lines."""
+def without_comments(text: str) -> str:
+    """Return C with comments, strings and characters blanked out, line for line and place for place."""
     return re.sub(
-        r'/\*.*?\*/|"(?:[^"\\]|\\.)*"', lambda found: re.sub(r"[^\n]", " ", found.group()), text, flags=re.DOTALL
+        r"""/\*.*?\*/|//[^\n]*|"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)+'""",
+        lambda found: re.sub(r"[^\n]", " ", found.group()),
+        text,
+        flags=re.DOTALL,
     )
 
 
-def _whole_head(lines: Sequence[str], index: int) -> tuple[str, int]:
-    head = lines[index].strip()
-    while head.count("(") > head.count(")"):
-        index += 1
-        head += " " + lines[index].strip()
-    return head, index
+def _function_of_lines(lines: Sequence[str]) -> list[str]:
+    """Return for each line the function it is in."""
+    function, depth, answer = "", 0, []
+    for line in lines:
+        if depth == 0 and (named := re.match(r"^(?:static )?[\w *]*?\b(\w+)\(", line.strip())):
+            function = named.group(1)
+        answer.append(function)
+        depth += line.count("{") - line.count("}")
+    return answer
 
 
-def _end_of_body(lines: Sequence[str], index: int) -> int:
-    """Return the line where what follows a head ends: of its braces, else of one statement."""
-    depth, at, opened = 0, index + 1, False
-    while at < len(lines):
-        depth += lines[at].count("{") - lines[at].count("}")
-        opened = opened or "{" in lines[at]
-        if (opened and depth <= 0) or (not opened and lines[at].rstrip().endswith(";")):
-            return at
-        at += 1
-    return len(lines) - 1
+def _closing(code: str, start: int, pair: str) -> int:
+    """Return the place after the bracket that closes the first one behind a place."""
+    depth = 0
+    for found in re.compile("[" + re.escape(pair) + "]").finditer(code, start):
+        depth += 1 if found.group() == pair[0] else -1
+        if depth <= 0:
+            return found.end()
+    return len(code)
+
+
+def _after(code: str, mark: str, start: int) -> int:
+    at = code.find(mark, start)
+    return len(code) if at < 0 else at + 1
 
 
 def _trips(head: str, body: str, around: Mapping[str, int]) -> tuple[str, int | None, int]:
@@ -128,7 +131,9 @@ def _trips(head: str, body: str, around: Mapping[str, int]) -> tuple[str, int | 
     if found is None:
         return "", None, 0
     name = found["name"]
-    if re.search(rf"(?<![\w>.]){name}\s*(?:[-+*/|&^]|<<|>>)?=(?!=)|(?<![\w>.]){name}\s*(?:\+\+|--)|&{name}\b", body):
+    if re.search(
+        rf"(?<![\w>.]){name}\s*(?:[-+*/|&^]|<<|>>)?=(?!=)|(?<![\w>.]){name}\s*(?:\+\+|--)|&[\s(]*{name}\b", body
+    ):
         return name, None, 0
     step = re.fullmatch(
         rf"{name}(\+\+|--)|{name} = {name} ([-+]) (\d+)U?|{name} ([-+])= (\d+)U?|(\+\+|--){name}", found["step"]
@@ -145,9 +150,11 @@ def _trips(head: str, body: str, around: Mapping[str, int]) -> tuple[str, int | 
     if sign == "+" and limit[1] in ("<", "<=") and bound is not None:
         start = first if first is not None and _NUMBER.match(found["start"]) else 0
         count = bound - start + (limit[1] == "<=")
-        return name, max(0, -(-count // by)), bound
+        return name, max(0, -(-count // by)) if bound < 1 << 31 else None, bound
     lowest = _NUMBER.match(limit[2])
     if sign == "-" and limit[1] in (">", ">=") and first is not None and lowest:
+        if int(lowest[1]) + (limit[1] == ">") < by:  # it passes zero, and an unsigned counter goes on at its largest
+            return name, None, 0
         count = first - int(lowest[1]) + (limit[1] == ">=")
         return name, max(0, -(-count // by)), first
     return name, None, 0
@@ -220,6 +227,26 @@ class Analysis:
     def frame(self, function: str) -> Bound:
         """Return the bytes of stack of a function alone, callees left out."""
         return self._ask(function, lambda address: self._deepest_stack(address, lambda target: 0))
+
+    def takes_stack_freely(self, function: str) -> str:
+        """Return why the frame of a function is not of a fixed size, or nothing.
+
+        A frame that is aligned, or given back by way of a frame pointer, is of a fixed size though it has no bound here.
+        """
+        frame, start = self.frame(function), self.image.function_named(function)
+        if not isinstance(frame, Unknown) or start is None:
+            return ""
+        items = [item for item in self.image.instructions() if self.image.function_at(item.address) == start]
+        moves = [
+            _gives_back(self.image.machine, item, items[max(0, k - 1) : k])
+            for k, item in enumerate(items)
+            if _sp_change(self.image.machine, item, items[:k]) is None
+        ]
+        return "" if moves and all(moves) else frame.reason
+
+    def cycles(self, function: str) -> Bound:
+        """Return how many loops the machine code of a function has: the blocks to which it jumps back."""
+        return self._ask(function, lambda address: len(_heads(address, self._body(address))))
 
     def callees(self, function: str) -> list[str]:
         """Return the names of all functions that a call may reach, itself left out; undefined ones too."""
@@ -311,7 +338,7 @@ class Analysis:
             calls.setdefault(item.address, []).append((item, item.target))
         elif item.kind == "jump":
             if item.target is None:
-                return self._riscv_table(start, item, items)
+                return self._switch(start, item, items)
             if self._is_other(start, item.target):
                 calls.setdefault(item.address, []).append((item, item.target))
                 leaving.add(item.address)
@@ -346,13 +373,15 @@ class Analysis:
             targets.append(item.next + 2 * word)
         return list(dict.fromkeys(targets))
 
-    def _riscv_table(self, start: int, jump: Instruction, items: Mapping[int, Instruction]) -> list[int]:
-        """Return the targets of a `switch` as gcc writes it for RISC-V: a table of offsets from its own address.
+    def _switch(self, start: int, jump: Instruction, items: Mapping[int, Instruction]) -> list[int]:
+        """Return the targets of a `switch`: in an object as its relocations say, in a program for RISC-V as gcc writes it.
 
-        Before the jump stand ``bltu limit, index``, the address of the table, ``slli``, ``add``, ``lw``, ``add``. An
-        indirect jump of another kind has no bound.
+        There a table holds offsets from its own address, and before the jump stand ``bltu limit, index``, the address of
+        the table, ``slli``, ``add``, ``lw``, ``add``. An indirect jump of another kind has no bound.
         """
         before = [items[at] for at in sorted(items) if jump.address - 60 <= at < jump.address]
+        if targets := self.image.switch_targets([*before, jump]):
+            return targets
         last = [(item.mnemonic.removeprefix("c."), re.split(r", |[()]", item.operands)) for item in before]
         names = [name for name, _ in last[-4:]]
         no_table = _NoBound(f"an indirect jump in {self._name(start)}")
@@ -666,6 +695,26 @@ def _blocks(
     return blocks
 
 
+def _heads(start: int, blocks: Mapping[int, _Block]) -> set[int]:
+    """Return the blocks that are reached again from what follows them: the heads of loops."""
+    heads: set[int] = set()
+    path, done = {start}, {start}
+    work = [(start, iter(blocks[start].after))]
+    while work:
+        at, after = work[-1]
+        target = next(after, None)
+        if target is None:
+            path.discard(at)
+            work.pop()
+        elif target in path:
+            heads.add(target)
+        elif target not in done:
+            path.add(target)
+            done.add(target)
+            work.append((target, iter(blocks[target].after)))
+    return heads
+
+
 def _components(nodes: Sequence[int], edges: Mapping[int, Sequence[int]]) -> list[list[int]]:
     """Return the strongly connected components (Tarjan), each after those that it leads to."""
     order: dict[int, int] = {}
@@ -764,6 +813,17 @@ def _sp_change(machine: str, item: Instruction, before: Sequence[Instruction]) -
     return {"x86-64": _sp_x86, "thumb": _sp_thumb, "rv32": _sp_riscv}[machine](item, before)
 
 
+def _gives_back(machine: str, item: Instruction, before: Sequence[Instruction]) -> bool:
+    """Whether an instruction aligns the stack, or sets it from a register that points to its frame."""
+    text = f"{item.mnemonic} {item.operands}"
+    if machine == "x86-64":
+        return bool(re.fullmatch(r"leave ?|and rsp, -?\w+|mov rsp, rbp|lea rsp, \[(?!rsp)\w+( [-+] \w+)?\]", text))
+    if machine == "thumb" and (moved := re.fullmatch(r"mov sp, (\w+)", text)):
+        last = f"{before[-1].mnemonic} {before[-1].operands}" if before else ""
+        return moved[1] == "r7" or re.fullmatch(rf"subs?(?:\.w|w)? {moved[1]}, r7, #\w+", last) is not None
+    return machine == "rv32" and re.fullmatch(r"(?:c\.)?mv sp, s0|addi sp, s0, -?\w+", text) is not None
+
+
 def _immediate(text: str) -> int | None:
     found = re.fullmatch(r"#?(-?(?:0x[0-9a-f]+|\d+))", text.strip())
     return int(found[1], 0) if found else None
@@ -826,7 +886,7 @@ def _sp_thumb(item: Instruction, before: Sequence[Instruction]) -> int | None:
     if words[0] == "sp!":
         size = sum(8 if re.match(r"d\d", word.strip(" {}")) else 4 for word in words[1:])
         return size if name.startswith(("stm", "vstm")) else -size
-    if words[0] == "sp" and not name.startswith(("cmp", "str", "tst")):
+    if words[0] == "sp" and not name.startswith(("cmp", "str", "tst", "ldm", "stm", "vldm", "vstm")):
         return None
     return 0
 

@@ -81,6 +81,13 @@ def reasons(costs: Mapping[str, Cost]) -> list[str]:
     return [f"{', '.join(entries)}: {reason}" for reason, entries in grouped.items()]
 
 
+def deepest(costs: Mapping[str, Cost]) -> int:
+    """Return the most that any entry is known to need: its bound, or what was seen where that is more or all there is."""
+    return max(
+        (number for cost in costs.values() for number in (cost.seen, cost.bound) if isinstance(number, int)), default=0
+    )
+
+
 def within(quantity: str, target: str, costs: Mapping[str, Cost], resolution: int = 0) -> CheckResult:
     """Check that what was seen of each entry is not above its bound.
 

@@ -20,7 +20,7 @@ from ..symbolic.signals import STATUS_TEXT, Kind, Signal, Status
 from .layout import default_text, struct_lines
 from .mathematics import CHOICES, OWN, mathematics_note, mathematics_text
 from .provenance import Genealogy, Parent, Provenance, TracedLines, marked, unmarked
-from .rows import bounded_helper, pair_helpers
+from .rows import bounded_helper, certain_factors, pair_helpers
 from .style import WIDTH, Precision, comment_lines, comment_safe, wrap_line
 from .writer import CoreWriter, Style, core_name, has_outputs, is_sequenced, needs_params, style_for, wrap_signature
 
@@ -357,7 +357,10 @@ class _Emitter:
         }
         if isinstance(hold, HoldFactors):
             text = templates().get_template("hold_factors.c.j2").render(**context, one=self.precision.literal(1.0))
-            return text.rstrip("\n").split("\n")
+            return [
+                *text.rstrip("\n").split("\n"),
+                *bounded_helper(prefix, self.precision, size, hold.floor, certain_factors(hold), "factors"),
+            ]
         text = templates().get_template("hold_variances.c.j2").render(**context)
         return [
             *text.rstrip("\n").split("\n"), *bounded_helper(prefix, self.precision, size, hold.floor, limits)

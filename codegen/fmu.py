@@ -11,13 +11,14 @@ import uuid
 import xml.etree.ElementTree as ElementTree
 import zipfile
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..symbolic.block import Block
+from ..symbolic.program import Evaluate, Place, walk
 from ..symbolic.signals import Kind, Signal
 from .compiler import CompilerError, find_compiler
 from .emit import CText, generator_version, templates
@@ -26,6 +27,7 @@ from .layout import flatten
 from .options import Options
 from .style import Precision
 from .views import View
+from .writer import inputs_used
 
 HEADERS = ("fmi2Functions.h", "fmi2FunctionTypes.h", "fmi2TypesPlatform.h")
 STEP_TOLERANCE = 1e-6
@@ -55,6 +57,8 @@ class Variable:
         Element of the signal.
     causality : {"input", "output", "parameter"}
         Who gives it.
+    fixed : bool
+        Whether it is a parameter that counts only during initialisation.
     """
 
     name: str
@@ -62,6 +66,7 @@ class Variable:
     signal: Signal
     index: int
     causality: str
+    fixed: bool = False
 
     @property
     def start(self) -> float:
@@ -137,13 +142,48 @@ def variables_of(block: Block) -> list[Variable]:
     step = block.entries["step"]
     inputs = tuple(signal for signal in step.inputs if signal.name != "dt")
     status = Signal("status", kind=Kind.STATUS, doc="what the last call returned: negative refused, positive degraded")
+    tunable = tunable_parameters(block)
+    params = [
+        replace(item, fixed=item.path.removeprefix("params.").partition("[")[0] not in tunable)
+        for item in _elements(block.param_group().members, "params", "parameter")
+    ]
     return [
-        *_elements(block.param_group().members, "params", "parameter"),
+        *params,
         *_elements(inputs, "in", "input"),
         *_elements(step.outputs, "out", "output"),
         *_elements(block.memory_group().members, "state", "output"),
         Variable("status", "status", status, 0, "output"),
     ]
+
+
+def tunable_parameters(block: Block, prefix: str = "") -> set[str]:
+    """Return the (dotted) names of the parameters that some call after `init` reads; the others only start the memory."""
+    read: set[Place] = set()
+    for entry in block.entries.values():
+        if entry.checks_params:
+            continue
+        read |= {place for _, place in entry.hidden}
+        for statement in walk(entry.body):
+            read |= inputs_used(statement) if isinstance(statement, Evaluate) else set(_places(statement))
+    names = {place.name for place in read if place.space == "param"}
+    found = {
+        f"{prefix}{signal.name}"
+        for signal in block.param_signals_flat()
+        if any(signal.name == name or signal.name.startswith(f"{name}.") for name in names)
+    }
+    return found.union(*(tunable_parameters(part, f"{prefix}{name}.") for name, part in block.parts.items()))
+
+
+def _places(item: Any) -> Iterator[Place]:
+    """Yield the places in a statement, but for those in statements inside it."""
+    if isinstance(item, Place):
+        yield item
+    elif isinstance(item, (tuple, list)):
+        for part in item:
+            yield from _places(part)
+    elif is_dataclass(item) and not isinstance(item, type):
+        for part in fields(item):
+            yield from _places(getattr(item, part.name))
 
 
 def guid_of(block: Block, options: Options) -> str:
@@ -175,7 +215,7 @@ def model_description(block: Block, options: Options) -> str:
         root,
         "CoSimulation",
         modelIdentifier=block.name,
-        canHandleVariableCommunicationStepSize="false" if time is not None else "true",
+        canHandleVariableCommunicationStepSize="true" if _steps_by_input(block) else "false",
         canGetAndSetFMUstate="true",
         canSerializeFMUstate="true",
     )
@@ -200,13 +240,18 @@ def model_description(block: Block, options: Options) -> str:
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
 
 
+def _steps_by_input(block: Block) -> bool:
+    """Whether the time step is an input of `step`: only then may a master change the communication step size."""
+    return any(signal.name == "dt" for signal in block.entries["step"].inputs)
+
+
 def _initial(item: Variable) -> str:
     return "calculated" if item.path.startswith(("state.", "status")) else "exact"
 
 
 def _describe(listed: ElementTree.Element, reference: int, item: Variable, precision: Precision) -> None:
     """Add a ScalarVariable."""
-    variability = "tunable" if item.causality == "parameter" else "discrete"
+    variability = ("fixed" if item.fixed else "tunable") if item.causality == "parameter" else "discrete"
     row = ElementTree.SubElement(
         listed,
         "ScalarVariable",
@@ -252,6 +297,10 @@ def _number(value: float, precision: Precision) -> str:
     return repr(float(np.dtype(precision.dtype).type(value)))
 
 
+def _is_real_parameter(item: Variable) -> bool:
+    return item.causality == "parameter" and item.signal.kind is Kind.REAL
+
+
 def wrapper_source(block: Block, options: Options) -> str:
     """Return the C of the wrapper: the functions of FMI around the block's entries."""
     step = block.entries["step"]
@@ -264,6 +313,9 @@ def wrapper_source(block: Block, options: Options) -> str:
             "kind": spellings[item.signal.kind],
             "settable": "false" if item.causality == "output" else "true",
             "parameter": "true" if item.causality == "parameter" else "false",
+            "fixed": "true" if item.fixed else "false",
+            "low": _number(item.signal.low[item.index], precision) if _is_real_parameter(item) else "0.0",
+            "high": _number(item.signal.high[item.index], precision) if _is_real_parameter(item) else "0.0",
             "path": item.path,
         }
         for item in variables
@@ -291,7 +343,8 @@ def wrapper_source(block: Block, options: Options) -> str:
             constant_dt="" if time is None else repr(time),
             dt_low="" if time is None else repr(time * (1.0 - STEP_TOLERANCE)),
             dt_high="" if time is None else repr(time * (1.0 + STEP_TOLERANCE)),
-            input_dt=any(signal.name == "dt" for signal in step.inputs),
+            input_dt=_steps_by_input(block),
+            tolerance=repr(STEP_TOLERANCE),
         )
     )
 

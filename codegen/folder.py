@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import ctypes
+import hashlib
 import json
 import os
+import re
 import shutil
 import sys
 import tempfile
@@ -41,11 +43,18 @@ def read_manifest(folder: Path) -> dict[str, Any]:
         raise FolderError(f"{path}: not readable as JSON ({error}); export again") from None
     except OSError as error:
         raise FolderError(f"{path}: cannot be read ({error.strerror}); make it readable") from None
-    if not isinstance(manifest, dict) or not {"name", "model", "precision", "files"} <= manifest.keys():
+    if not isinstance(manifest, dict) or not {"name", "model", "precision", "files", "generator"} <= manifest.keys():
         raise FolderError(f"{path}: not a manifest of plantc; export again")
-    if not isinstance(manifest["files"], dict) or not all(map(_is_inside, manifest["files"])):
+    if not str(manifest["generator"]).startswith("plantc "):
+        raise FolderError(f"{path}: not a manifest of plantc; export again")
+    files = manifest["files"]
+    if not isinstance(files, dict) or not all(map(_is_inside, files)) or not all(map(_is_hash, files.values())):
         raise FolderError(f"{path}: not a manifest of plantc; export again")
     return manifest
+
+
+def _is_hash(value: object) -> bool:
+    return isinstance(value, str) and re.fullmatch("[0-9a-f]{64}", value) is not None
 
 
 def _is_inside(file: str) -> bool:
@@ -88,7 +97,27 @@ def earlier_files(folder: Path) -> set[str]:
     return {*manifest["files"], MANIFEST, *MEASURED, f"{manifest['name']}.fmu"}
 
 
-def check_folder_is_free(folder: Path, files: Iterable[str] = ()) -> set[str]:
+def changed_files(folder: Path) -> list[str]:
+    """Return which files of an earlier export are no longer what it wrote, by the hashes of its manifest.
+
+    Line ends are not looked at, since version control turns them; a file that is gone is not told.
+    """
+    if not (folder / MANIFEST).is_file():
+        return []
+    changed = []
+    for file, wanted in read_manifest(folder)["files"].items():
+        path = folder / file
+        if path.is_file():
+            content = path.read_bytes()
+            both = {hashlib.sha256(each).hexdigest() for each in (content, content.replace(b"\r\n", b"\n"))}
+            if wanted not in both:
+                changed.append(file)
+        elif os.path.lexists(path):
+            changed.append(file)
+    return changed
+
+
+def check_folder_is_free(folder: Path, files: Iterable[str] = (), *, force: bool = False) -> set[str]:
     """See that a folder may be replaced, before work is put into it.
 
     Parameters
@@ -97,6 +126,8 @@ def check_folder_is_free(folder: Path, files: Iterable[str] = ()) -> set[str]:
         Where an export goes.
     files : iterable of str
         What it will write, as far as that is known.
+    force : bool
+        Whether files of an earlier export may be replaced that someone changed since.
 
     Returns
     -------
@@ -106,9 +137,24 @@ def check_folder_is_free(folder: Path, files: Iterable[str] = ()) -> set[str]:
     Raises
     ------
     FolderError
-        If the folder holds someone else's files under a name that is to be written, or no manifest, or cannot be written.
+        If the folder holds someone else's files under a name that is to be written, or no manifest, or files of an
+        earlier export that were changed since, or cannot be written, or leads elsewhere by a link.
     """
     ours = earlier_files(folder)
+    changed = [] if force else changed_files(folder)
+    if changed:
+        more = f" (and {len(changed) - 1} more)" if len(changed) > 1 else ""
+        raise FolderError(
+            f"{folder / changed[0]}: it was changed since plantc wrote it{more}; keep your change elsewhere, or export with "
+            "--force, which writes over it"
+        )
+    for file in sorted({*ours, *files}):
+        for above_it in list(PurePosixPath(file).parents)[:-1]:
+            if (folder / above_it).is_symlink():
+                raise FolderError(
+                    f"{folder / above_it}: it is a link, so the C would be written outside {folder}; remove it, or give another "
+                    "--out"
+                )
     for file in files:
         for path in [file, *(parent.as_posix() for parent in list(PurePosixPath(file).parents)[:-1])]:
             lies = folder / path
@@ -132,19 +178,38 @@ def write_files(folder: Path, files: Mapping[str, Content]) -> None:
         path.write_bytes(content.encode() if isinstance(content, str) else content)
 
 
-def write_folder(folder: Path, files: Mapping[str, Content]) -> None:
+def write_file(path: Path, text: str) -> None:
+    """Write a file aside and put it in its place in one step: never half of it.
+
+    Raises
+    ------
+    FolderError
+        If it cannot be written, in a sentence.
+    """
+    place = path.resolve()
+    partial = place.with_name(f".{place.name}.{os.getpid()}.tmp")
+    try:
+        partial.write_bytes(text.encode())
+        os.replace(partial, place)
+    except OSError as error:
+        raise FolderError(f"{path}: cannot be written ({error.strerror or error}); make its folder writable") from error
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def write_folder(folder: Path, files: Mapping[str, Content], *, force: bool = False) -> None:
     """Replace what an earlier export wrote by these files, whole or not at all.
 
     All is written aside first. Where the folder holds nothing of the user's it is then exchanged in one step, as far as
     the system can; where it does, file by file, and back if one of them fails. The user's own files stay; files of an
-    earlier export that are no longer written go.
+    earlier export that are no longer written go. `force`: see `check_folder_is_free`.
 
     Raises
     ------
     FolderError
         See `check_folder_is_free`; or the disk is full, or the like. What was there stays.
     """
-    ours = check_folder_is_free(folder, files)
+    ours = check_folder_is_free(folder, files, force=force)
     real = folder.resolve()
     try:
         real.parent.mkdir(parents=True, exist_ok=True)

@@ -8,14 +8,17 @@ from __future__ import annotations
 
 import re
 import shutil
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
-from .bounds import source_loops
+from .addresses import fixed_addresses
+from .bounds import Analysis, Unknown, source_loops, without_comments
 from .compiler import BASE_FLAGS, WARNINGS, Compiler, CompilerError
 from .emit import CText
 from .findings import CheckResult
-from .objects import Image
+from .objects import Image, read_image
 
 HEAP = frozenset(
     "malloc calloc realloc reallocarray free aligned_alloc posix_memalign memalign valloc pvalloc strdup strndup asprintf "
@@ -71,8 +74,47 @@ def allowed_symbols(text: CText, machine: str) -> set[str]:
     return names
 
 
-def object_gates(image: Image, text: CText, where: str = "host") -> list[CheckResult]:
-    """Look at an object file: no heap, only listed symbols, no double in float, no recursion, no globals.
+PLAIN = ("-O0", "-fno-optimize-sibling-calls", "-fno-jump-tables", "-fstack-usage")
+"""Flags of a build as a debugger wants it: what `-O2` hides (a recursion made a loop, say) is there to be seen."""
+
+ROOM_WARNINGS = ("-Wvla", "-Walloca")
+"""Warnings of stack that is taken at run time, as far as a compiler knows them."""
+
+
+@dataclass(frozen=True)
+class Plain:
+    """A library built with the flags `PLAIN`.
+
+    Attributes
+    ----------
+    image : Image
+        Its object.
+    usage : dict
+        Function -> kind of its frame as the compiler states it: ``static``, ``dynamic`` or ``dynamic,bounded``; empty
+        where the compiler states none.
+    """
+
+    image: Image
+    usage: Mapping[str, str]
+
+
+def build_plain(run: Callable[[list[str], Path], None], flags: Sequence[str], text: CText, folder: Path) -> Plain:
+    """Compile a library that lies in a folder with a compiler's flags and `PLAIN`.
+
+    Raises
+    ------
+    ObjectError
+        If the object is not for a machine that is understood.
+    """
+    for old in folder.glob("*.su"):
+        old.unlink()
+    run([*flags, *PLAIN, "-c", f"{text.name}.c", "-o", "plain.o"], folder)
+    rows = [line.split("\t") for path in folder.glob("*.su") for line in path.read_text().splitlines()]
+    return Plain(read_image(folder / "plain.o"), {row[0].split(":")[-1]: row[2] for row in rows if len(row) > 2})
+
+
+def object_gates(image: Image, text: CText, where: str = "host", plain: Plain | None = None) -> list[CheckResult]:
+    """Look at an object file: heap, symbols, double in float, recursion, frames, globals, fixed addresses, loops.
 
     Parameters
     ----------
@@ -82,6 +124,8 @@ def object_gates(image: Image, text: CText, where: str = "host") -> list[CheckRe
         The C it was compiled from.
     where : str
         The machine, for the names of the checks.
+    plain : Plain, optional
+        The same built plainly: recursion, frames and addresses are looked for there too, and loops there alone.
     """
 
     def gate(name: str, faults: Sequence[str]) -> CheckResult:
@@ -98,18 +142,71 @@ def object_gates(image: Image, text: CText, where: str = "host") -> list[CheckRe
     ]
     if text.precision.is_float:
         results.append(gate("no double in float", _doubles(image)))
-    results.append(gate("no recursion", _recursion(image.calls())))
+    images = [image] if plain is None else [image, plain.image]
+    results.append(gate("no recursion", _once(fault for item in images for fault in _recursion(item.calls()))))
+    results.append(gate("frames of fixed size", _frames(image, {} if plain is None else plain.usage)))
     globals_ = [f"{item.name} ({item.size} bytes in {item.section})" for item in image.objects if item.writable]
     globals_ += [] if globals_ else [f"{name} has {size} bytes" for name, size in image.writable_sections]
     results.append(gate("no globals", globals_))
+    results.append(gate("no fixed address", _once(fault for item in images for fault in fixed_addresses(item))))
+    if plain is not None:
+        results.append(gate("no loop but those of the C", _loops_beside(plain.image, text)))
     return results
 
 
+def _once(faults: Iterable[str]) -> list[str]:
+    return list(dict.fromkeys(faults))
+
+
 def loops_gate(text: CText) -> CheckResult:
-    """Look at the C: every loop is a `for` whose trips are fixed."""
-    free = [loop for loop in source_loops(text.source) if loop.trips is None]
-    note = "; ".join(f"line {loop.first}: {loop.head}" for loop in free[:5])
+    """Look at the C: every loop is a `for` whose trips are fixed, and the header has none."""
+    free = [(loop, "") for loop in source_loops(text.source) if loop.trips is None]
+    free += [(loop, " of the header") for loop in source_loops(text.header)]
+    note = "; ".join(f"line {loop.first}{where}: {loop.head}" for loop, where in free[:5])
     return CheckResult("no unbounded loop", not free, note=note)
+
+
+_TO_POINTER = re.compile(
+    r"\*\s*(?:const|volatile|restrict|\s)*\)\s*\(*\s*(?:0[xX][0-9a-fA-F]+|[1-9]\d*)[uUlL]*\b|\bu?intptr_t\b"
+)
+
+
+def addresses_gate(text: CText) -> CheckResult:
+    """Look at the C and its header: no number is made a pointer, and no pointer a number."""
+    faults = []
+    for file, content in ((f"{text.name}.c", text.source), (f"{text.name}.h", text.header)):
+        code = without_comments(content)
+        faults += [f"line {code.count(chr(10), 0, at.start()) + 1} of {file}" for at in _TO_POINTER.finditer(code)]
+    return CheckResult("no number made a pointer", not faults, note="; ".join(faults[:5]))
+
+
+def _frames(image: Image, usage: Mapping[str, str]) -> list[str]:
+    """Return the functions whose frame is not of a fixed size: as the compiler says, and as the machine code shows."""
+    faults = [
+        f"{name} takes stack at run time, says the compiler ({kind})"
+        for name, kind in usage.items()
+        if "dynamic" in kind and "bounded" not in kind
+    ]
+    graph, analysis = image.calls(), Analysis(image)
+    for name, callees in graph.items():
+        if None not in callees:  # else it fails for that, and its code cannot be followed
+            reason = analysis.takes_stack_freely(name)
+            faults += [f"the frame of {name} is unknown because of {reason}"] if reason else []
+    return faults
+
+
+def _loops_beside(image: Image, text: CText) -> list[str]:
+    """Return the functions whose machine code has more loops than their C has bounded ones."""
+    known = Counter(loop.function for loop in source_loops(text.source) if loop.trips is not None)
+    analysis = Analysis(image)
+    faults = []
+    for name, callees in image.calls().items():
+        found = analysis.cycles(name)
+        if isinstance(found, Unknown):
+            faults += [] if None in callees else [f"the loops of {name} are {found}"]
+        elif found > known[name]:
+            faults.append(f"{name} has {found} in machine code, {known[name]} bounded in the C")
+    return faults
 
 
 def _doubles(image: Image) -> list[str]:
@@ -160,11 +257,12 @@ def installed_compilers() -> tuple[list[Compiler], list[str]]:
 
 
 def warnings_gate(compiler: Compiler, text: CText, folder: Path) -> CheckResult:
-    """Compile a library as C99 with all warnings as errors: those of `WARNINGS`."""
+    """Compile a library as C99 with all warnings as errors: those of `WARNINGS` and `ROOM_WARNINGS`."""
     write_library(text, folder)
     flags = [
         *BASE_FLAGS,
         *WARNINGS,
+        *[flag for flag in ROOM_WARNINGS if _knows(compiler, flag, folder)],
         "-ffp-contract=off",
         "-c",
         f"{text.name}.c",
@@ -188,6 +286,11 @@ def write_library(text: CText, folder: Path) -> None:
     """Write header and source into a folder."""
     (folder / f"{text.name}.h").write_text(text.header)
     (folder / f"{text.name}.c").write_text(text.source)
+
+
+def _knows(compiler: Compiler, flag: str, folder: Path) -> bool:
+    (folder / "nothing.c").write_text("typedef int nothing;\n")
+    return _said_nothing("", compiler, ["-Werror", flag, "-fsyntax-only", "nothing.c"], folder).passed
 
 
 def _said_nothing(name: str, compiler: Compiler, flags: Sequence[str], folder: Path) -> CheckResult:

@@ -81,6 +81,10 @@ class Node:
         enough = graph.make("ge", self, graph.const(limit))
         return graph.make("div", graph.const(1.0), graph.make("select", enough, self, graph.const(1.0)))
 
+    def reciprocal(self) -> Node:
+        """Return 1 / self, infinite of zero."""
+        return self.graph.make("div", self.graph.const(1.0), self)
+
     def positive_part(self) -> Node:
         """Return self, or 0 where it is negative; NaN stays."""
         return self.at_least(0.0)

@@ -14,7 +14,16 @@ from .compiler import BASE_FLAGS, Compiler, contraction_flag, find_compiler
 from .crosscheck import CrossCheck, Probe
 from .emit import CText
 from .findings import CheckResult, Findings
-from .gates import header_gate, installed_compilers, loops_gate, object_gates, warnings_gate, write_library
+from .gates import (
+    addresses_gate,
+    build_plain,
+    header_gate,
+    installed_compilers,
+    loops_gate,
+    object_gates,
+    warnings_gate,
+    write_library,
+)
 from .objects import ObjectError, read_image
 from .on_target import agrees_bit_for_bit, equal_answers, first_difference, free_trace
 from .options import Options
@@ -82,7 +91,7 @@ def measure_gates(block: Block, options: Options, text: CText, check: CrossCheck
         One check for each gate; facts under ``gates``: which compilers were used, which are missing, which symbols are
         linked.
     """
-    checks: list[CheckResult] = [loops_gate(text)]
+    checks: list[CheckResult] = [loops_gate(text), addresses_gate(text)]
     facts: dict[str, Any] = {}
     with tempfile.TemporaryDirectory(prefix="plantc-") as name:
         folder = Path(name)
@@ -118,10 +127,11 @@ def _host_object(text: CText, contract: bool, folder: Path) -> tuple[list[CheckR
     """Compile for the host as the cross-check does, and look at the object."""
     compiler = find_compiler()
     write_library(text, folder)
-    flags = [*BASE_FLAGS, contraction_flag(contract), "-c", f"{text.name}.c", "-o", "host.o"]
-    compiler.run(flags, folder)
+    flags = [*BASE_FLAGS, contraction_flag(contract)]
+    compiler.run([*flags, "-c", f"{text.name}.c", "-o", "host.o"], folder)
     try:
         image = read_image(folder / "host.o")
+        plain = build_plain(compiler.run, flags, text, folder)
     except ObjectError as error:
         return [], f"not looked into: {error}"
-    return object_gates(image, text), {"machine": image.machine, "symbols": image.undefined}
+    return object_gates(image, text, plain=plain), {"machine": image.machine, "symbols": image.undefined}

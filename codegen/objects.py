@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from io import BytesIO
@@ -26,6 +26,8 @@ MACHINES = {"EM_X86_64": "x86-64", "EM_ARM": "thumb", "EM_RISCV": "rv32"}
 
 _SECTION_GAP = 0x1000
 _WRITE, _ALLOC, _EXECUTE = 1, 2, 4
+_OFFSETS = {"x86-64": (2,), "rv32": (35,)}
+"""Relocations of offsets from a table's own address: R_X86_64_PC32, R_RISCV_ADD32 (with its SUB32)."""
 _IGNORED_SYMBOLS = frozenset({"", "_GLOBAL_OFFSET_TABLE_"})
 
 
@@ -140,7 +142,10 @@ class Image:
         self.objects: list[DataObject] = []
         self._marks: list[tuple[int, bool]] = []  # where code (True) or data begins inside code sections
         self._read_symbols()
-        self._fixed = self._read_relocations() if self.is_relocatable else {}
+        self._fixed: dict[int, tuple[int | str, int]] = {}
+        self._pointers: dict[int, tuple[int, bool]] = {}  # in data: place -> (address, whether it is an offset)
+        if self.is_relocatable:
+            self._read_relocations()
 
     # -- reading ------------------------------------------------------------------------------------------------------
 
@@ -196,23 +201,24 @@ class Image:
         self._marks.sort()
         self.undefined.sort()
 
-    def _read_relocations(self) -> dict[int, tuple[int | str, int]]:
-        """Return place -> (address or undefined name, addend) for the relocations of code."""
-        fixed: dict[int, tuple[int | str, int]] = {}
+    def _read_relocations(self) -> None:
+        """Read where code refers to (address or undefined name, addend), and which words of data point into the file."""
         for section in self._elf.iter_sections():
             if not isinstance(section, RelocationSection) or section["sh_info"] not in self._sections:
                 continue
             place = self._sections[section["sh_info"]]
-            if not place.flags & _EXECUTE:
-                continue
             symbols = self._elf.get_section(section["sh_link"])
             for item in section.iter_relocations():
                 symbol = symbols.get_symbol(item["r_info_sym"])
                 where = self._address_of(symbol)
                 addend = item["r_addend"] if section.is_RELA() else 0
-                if where is not None or symbol.name not in _IGNORED_SYMBOLS:
-                    fixed[place.base + item["r_offset"]] = (symbol.name if where is None else where, addend)
-        return fixed
+                at = place.base + item["r_offset"]
+                if not place.flags & _EXECUTE:
+                    is_offset = item["r_info_type"] in _OFFSETS.get(self.machine, ())
+                    if where is not None:
+                        self._pointers.setdefault(at, (where + addend, is_offset))
+                elif where is not None or symbol.name not in _IGNORED_SYMBOLS:
+                    self._fixed[at] = (symbol.name if where is None else where, addend)
 
     # -- what is in it ------------------------------------------------------------------------------------------------
 
@@ -402,16 +408,51 @@ class Image:
                 yield found
                 address = found.next
 
-    def is_table_jump(self, recent: list[Instruction]) -> bool:
-        """Whether the last of some instructions in a row jumps through a table of its function (a `switch`).
+    def is_relocated(self, item: Instruction) -> bool:
+        """Whether the linker is to put an address into an instruction."""
+        return any(item.address + k in self._fixed for k in range(item.size))
 
-        Known by how compilers write it: on x86-64 an offset is loaded, scaled, and added to the table's own address;
-        on RISC-V the index is scaled and a word loaded. A call through a pointer has no scaled index.
+    def is_relocated_at(self, place: int) -> bool:
+        """Whether the linker is to put an address into the word at a place of the code."""
+        return place in self._fixed
+
+    def switch_targets(self, recent: Sequence[Instruction]) -> list[int]:
+        """Return where the last of some instructions in a row may jump, if it jumps through a table of its function.
+
+        A `switch` is known by how compilers write it (on x86-64 an offset is loaded, scaled, and added to the table's own
+        address; on RISC-V the index is scaled and a word loaded), and by its table, which has to be in this file and to
+        lead into the function itself. A table of functions is none, nor is anything else: the list is empty.
         """
-        jump = recent[-1]
-        if jump.kind != "jump" or jump.target is not None:
-            return False
-        before = recent[:-1]
+        jump, before = recent[-1], recent[:-1]
+        owner = self.function_at(jump.address)
+        if jump.kind != "jump" or jump.target is not None or owner is None or not self._is_like_a_switch(jump, before):
+            return []
+        for item in reversed(before):
+            found = next((self._fixed[a] for k in range(item.size) if (a := item.address + k) in self._fixed), None)
+            if found is None or isinstance(found[0], str) or item.kind != "plain":
+                continue
+            targets = self._targets_of(found[0] + found[1] + (4 if self.machine == "x86-64" else 0), owner)
+            if targets:
+                return targets
+        return []
+
+    def _targets_of(self, table: int, owner: Function) -> list[int]:
+        """Return the targets in a table, as far as they lie in a function and are not its beginning."""
+        targets = []
+        place = table
+        while place in self._pointers:
+            address, is_offset = self._pointers[place]
+            if is_offset and self.machine == "x86-64":
+                address -= place - table
+            inside = self.function_at(address)
+            is_own = inside is not None and (inside == owner or inside.name.startswith(f"{owner.name}.cold"))
+            if not is_own or address == owner.address:
+                break
+            targets.append(address)
+            place += 4
+        return list(dict.fromkeys(targets))
+
+    def _is_like_a_switch(self, jump: Instruction, before: Sequence[Instruction]) -> bool:
         if self.machine == "x86-64":
             scaled = any(item.mnemonic == "movsxd" and "*4]" in item.operands for item in before)
             return scaled and any(item.mnemonic == "lea" and "rip" in item.operands for item in before)
@@ -420,7 +461,7 @@ class Image:
             loads = any(
                 item.mnemonic in ("lw", "c.lw") and item.operands.startswith(f"{jump.operands},") for item in before
             )
-            return shifts and loads
+            return shifts and (loads or any(item.mnemonic in ("lw", "c.lw") for item in before))
         return False
 
     def calls(self) -> dict[str, set[str | None]]:
@@ -430,7 +471,7 @@ class Image:
         for item in self.instructions():
             owner = self.function_at(item.address)
             recent = [*recent[-8:], item]
-            if owner is None or item.kind not in ("call", "jump") or self.is_table_jump(recent):
+            if owner is None or item.kind not in ("call", "jump") or self.switch_targets(recent):
                 continue
             if isinstance(item.target, int):
                 callee = self.function_at(item.target)

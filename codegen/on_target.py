@@ -14,15 +14,17 @@ import numpy as np
 
 from ..symbolic.block import Block
 from .bounds import Analysis, Bound, Unknown, source_loops
-from .costs import Cost, within, written
+from .compiler import contraction_flag
+from .costs import Cost, deepest, reasons, within, written
 from .crosscheck import DOUBLE_BOUND, CrossCheck, FrozenStream, Probe, compare_answers, default_scenario
 from .emit import CText
 from .emulator import Call, TargetView
 from .findings import CheckResult, Findings, Mismatch
-from .gates import object_gates
+from .gates import build_plain, object_gates
 from .layout import flatten, inputs_dtype, memory_dtype, outputs_dtype, params_dtype
 from .objects import ObjectError, read_image
 from .options import Options
+from .style import Precision
 from .targets import Sizes, Target, TargetError, Toolchain, find_emulator, find_toolchain, linked_library, target_named
 from .trace import Trace, TraceCall
 from .views import Answer, NativeView, View
@@ -307,23 +309,19 @@ def _target_costs(view: TargetView) -> Findings:
         whole = linked_library(view.toolchain, view.text, list(block.entries), Path(name), contract=view.contract)
         linked, own = Sizes.of(whole), Sizes.of(Path(name) / f"{block.name}.o")
         image = read_image(Path(name) / f"{block.name}.o")
-        checks = object_gates(image, view.text, target.name)
+        flags = [*view.toolchain.flags, contraction_flag(view.contract)]
+        plain = build_plain(view.toolchain.run, flags, view.text, Path(name))
+        checks = object_gates(image, view.text, target.name, plain)
         analysis = analysis_of(block, view.text, whole)
     assert own is not None, "targets are ELF"
     assert linked is not None, "targets are ELF"
-    stack = max(item.stack for item in view.most.values())
-    flash = linked.text + linked.data
-    ram = linked.data + linked.bss + _instance(view) + stack
-    for what, need, has, option in (("flash", flash, target.flash, "flash"), ("RAM", ram, target.ram, "ram")):
-        if need > has:
-            raise TargetError(
-                f"{block.name} does not fit {target.name}: it needs {need} bytes of {what}, there are {has}; make the "
-                f"model smaller, take --precision float, or state a larger chip by --{option}"
-            )
     entries = [name for name in block.entries if name in view.most]
     bounds = _bounds(block, analysis, view.toolchain)
-    instructions = {name: Cost.of(view.most[name].instructions, bounds[name][0]) for name in entries}
     stacks = {name: Cost.of(view.most[name].stack, bounds[name][1]) for name in entries}
+    flash = linked.text + linked.data
+    ram = linked.data + linked.bss + _instance(block, view.precision) + deepest(stacks)
+    _refuse_what_does_not_fit(block, target, flash, ram)
+    instructions = {name: Cost.of(view.most[name].instructions, bounds[name][0]) for name in entries}
     checks.append(within("instructions", target.name, instructions))
     checks.append(within("stack", target.name, stacks, WORD))
     facts = {
@@ -335,9 +333,10 @@ def _target_costs(view: TargetView) -> Findings:
         "linked": {**linked.as_dict(), "note": "the library with the functions it calls, without start-up code"},
         "flash": {"needed": flash, "available": target.flash},
         "ram": {
-            "needed": ram,
+            "needed": f"unknown, at least {ram}" if reasons(stacks) else ram,
             "available": target.ram,
-            "note": "data, one instance with parameters, largest inputs and outputs, deepest stack that was painted",
+            "note": "data, one instance with parameters, largest inputs and outputs, the greatest bound on the stack"
+            + ("" if not reasons(stacks) else ", which is not known of all: " + "; ".join(reasons(stacks))),
         },
         **written("instructions", instructions),
         **written("stack", stacks),
@@ -365,9 +364,8 @@ WORD = 4
 """Bytes: painted stack is read in words, so a function without a frame of its own may show one."""
 
 
-def _instance(view: TargetView) -> int:
+def _instance(block: Block, precision: Precision) -> int:
     """Return the bytes of one memory, its parameters, and the largest inputs and outputs."""
-    block, precision = view.block, view.precision
     size = memory_dtype(block, precision).itemsize
     if block.param_group().members:
         size += params_dtype(block, precision).itemsize
@@ -375,6 +373,39 @@ def _instance(view: TargetView) -> int:
     return size + max(
         outputs_dtype(entry, precision).itemsize if entry.outputs else 0 for entry in block.entries.values()
     )
+
+
+def _refuse_what_does_not_fit(block: Block, target: Target, flash: int, ram: int) -> None:
+    for what, need, has, option in (("flash", flash, target.flash, "flash"), ("RAM", ram, target.ram, "ram")):
+        if need > has:
+            raise TargetError(
+                f"{block.name} does not fit {target.name}: it needs {need} bytes of {what}, there are {has}; make the "
+                f"model smaller, take --precision float, or state a larger chip by --{option}"
+            )
+
+
+def check_it_fits(block: Block, options: Options, text: CText) -> None:
+    """Compile for every chosen target and see that flash and RAM suffice, before work is put into checks.
+
+    The RAM is a lower bound: the stack is known when the calls have run.
+
+    Raises
+    ------
+    TargetError
+        If they do not, or a tool is missing.
+    """
+    for target in chosen_targets(options):
+        if target.is_host:
+            continue
+        ram = _instance(block, options.precision)
+        _refuse_what_does_not_fit(block, target, 0, ram)  # known without compiling
+        with tempfile.TemporaryDirectory(prefix="plantc-") as name:
+            toolchain = find_toolchain(target)
+            linked = Sizes.of(
+                linked_library(toolchain, text, list(block.entries), Path(name), contract=options.contract)
+            )
+        assert linked is not None, "targets are ELF"
+        _refuse_what_does_not_fit(block, target, linked.text + linked.data, linked.data + linked.bss + ram)
 
 
 def _free_facts(trace: Trace) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import platform
 import subprocess
 import tempfile
@@ -15,8 +16,9 @@ from typing import Any
 import numpy as np
 
 from ..symbolic.block import Block
+from ..symbolic.errors import ModelError
 from ..symbolic.signals import Kind, Signal
-from .cache import Kept, is_cacheable, keep, kept, key_of
+from .cache import Kept, keep, kept, key_of
 from .compiler import contraction_flag, find_compiler
 from .coverage import measure_coverage
 from .crosscheck import CrossCheck, cross_check, make_probes, make_views
@@ -24,11 +26,11 @@ from .emit import CText, emit, generator_version, templates
 from .exported import MissingTool
 from .findings import CheckResult, Findings, Mismatch
 from .fmu import build_fmu, check_fmu, check_fmu_is_possible
-from .folder import MEASURED, FolderError, check_folder_is_free, read_manifest, write_files, write_folder
+from .folder import MEASURED, FolderError, check_folder_is_free, read_manifest, write_file, write_files, write_folder
 from .fuzz import fuzz_source
 from .host_gates import measure_gates
 from .layout import default_params
-from .on_target import chosen_targets, measure_targets
+from .on_target import check_it_fits, chosen_targets, measure_targets
 from .options import Options
 from .packages import package_files
 from .report import report_html
@@ -47,7 +49,7 @@ NOT_CHECKED = [
 ]
 
 
-class DesignError(ValueError):
+class DesignError(ModelError):
     """A design.json that does not belong to the model as it is now."""
 
 
@@ -214,6 +216,7 @@ def export(
     native: NativeView | None = None,
     fmu: bool = False,
     cached: bool = False,
+    force: bool = False,
 ) -> Export:
     """Write a block's C library to ``out/<name>/``, after every check passed.
 
@@ -239,6 +242,8 @@ def export(
         Whether an export that was done before, with the same C, choices, tools and plantc, may answer from the cache.
     fmu : bool
         Whether an FMI 2.0 co-simulation unit of the same C is written too, ``<name>.fmu``.
+    force : bool
+        Whether files of an earlier export may be replaced that someone changed since.
 
     Returns
     -------
@@ -260,21 +265,25 @@ def export(
     chosen = options or Options(Precision(precision), mathematics=mathematics)
     precision = chosen.precision.name
     folder = Path(out) / block.name
-    check_folder_is_free(folder)
+    check_folder_is_free(folder, force=force)
     chosen_targets(chosen)  # a missing tool is told before the work
     if fmu:
         check_fmu_is_possible(block)
-    report("compile", 0, 1)
+    report("write the C", 0, 1)
+    text = native.text if native is not None else emit(block, precision, mathematics=chosen.mathematics)
     key = ""
-    if cached and native is None and not (fmu or chosen.tables) and is_cacheable(block):
-        key = key_of(block, emit(block, precision, mathematics=chosen.mathematics), chosen, steps)
-        before = kept(key)
+    if cached and native is None and not (fmu or chosen.tables):
+        key = key_of(block, text, chosen, steps)
+        before = kept(key, block, text) if key else None
         if before is not None:
-            write_folder(folder, dict(before.files))
+            write_folder(folder, dict(before.files), force=force)
             return Export(
                 block, chosen, folder, before.files, CrossCheck(before.results, before.statuses), before.evidence, True
             )
-    compiled = native or NativeView(block, precision, contract=chosen.contract, mathematics=chosen.mathematics)
+    report("compile for the targets", 0, 1)
+    check_it_fits(block, chosen, text)
+    report("compile", 0, 1)
+    compiled = native or NativeView(block, precision, text=text, contract=chosen.contract)
     views = make_views(block, precision, compiled)
     check = cross_check(
         block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)
@@ -302,7 +311,7 @@ def export(
     files["evidence.json"] = json.dumps(evidence, indent=2) + "\n"
     report("report", 0, 1)
     files["report.html"] = report_html(block, json.loads(files["manifest.json"]), evidence, check.calls)
-    write_folder(folder, {**files, **binary})
+    write_folder(folder, {**files, **binary}, force=force)
     if key:
         keep(key, Kept(files, check.results, check.statuses, evidence))
     return Export(block, chosen, folder, files, check, evidence)
@@ -503,8 +512,10 @@ def _middle_text(signals: tuple[Signal, ...], precision: Precision) -> str:
 # Designed numbers
 
 
-def with_design(block: Block, path: Path, *, redesign: bool = False, write: bool = True) -> tuple[Block, bool]:
-    """Return the block with the numbers of a design.json, written first where it is absent.
+def with_design(
+    block: Block, path: Path, *, redesign: bool = False, write: bool = True
+) -> tuple[Block, dict[str, Any] | None]:
+    """Return the block with the numbers of a design.json, and what is to be written there.
 
     Parameters
     ----------
@@ -513,42 +524,107 @@ def with_design(block: Block, path: Path, *, redesign: bool = False, write: bool
     path : Path
         The design.json beside the model.
     redesign : bool
-        Write the numbers anew even where they are there.
+        Design the numbers anew even where they are there.
     write : bool
-        Whether an absent file is written.
+        Whether numbers that are not there yet are written at once; else it is the caller's, see `write_design`.
 
     Returns
     -------
-    (Block, bool)
-        The block, and whether the file was written.
+    (Block, dict or None)
+        The block, and its numbers where the file lacks them.
 
     Raises
     ------
     DesignError
-        If the file was made from another model; it names ``--redesign``.
+        If the file cannot be read, or was made from another model; it names ``--redesign``.
+    FolderError
+        If the file cannot be written.
     """
     design = block.design
     if design is None:
-        return block, False
-    stored: dict[str, Any] = {}
-    if path.is_file():
-        try:
-            stored = json.loads(path.read_text())
-        except json.JSONDecodeError as error:
-            raise DesignError(f"{path}: not readable as JSON ({error}); mend it, or export with --redesign") from None
-    own = stored.get(block.name)
+        return block, None
+    own = _stored_designs(path, redesign=redesign).get(block.name)
     if own is None or redesign:
         values = {name: np.asarray(value).tolist() for name, value in design.values.items()}
-        if not write:
-            return block, False
-        stored[block.name] = {"source": design.source, "values": values}
-        path.write_text(json.dumps(dict(sorted(stored.items())), indent=2) + "\n")
-        return block, True
-    if own.get("source") != design.source:
+        fresh = {"source": design.source, "values": values}
+        if write:
+            write_design(path, {block.name: fresh})
+        return block, fresh
+    if own["source"] != design.source:
         raise DesignError(
             f"{path}: the numbers of {block.name!r} were designed for another model; export with --redesign to design them anew"
         )
-    return design.rebuild({name: np.asarray(value) for name, value in own["values"].items()}), False
+    absent = [name for name in design.values if name not in own["values"]]
+    if absent:
+        raise DesignError(f"{path} has no {absent[0]}; export with --redesign")
+    strange = [name for name in own["values"] if name not in design.values or not _are_numbers(own["values"][name])]
+    if strange:
+        raise DesignError(
+            f"{path}: {strange[0]!r} of {block.name!r} is no designed number; mend it, or export with --redesign"
+        )
+    return design.rebuild({name: np.asarray(value) for name, value in own["values"].items()}), None
+
+
+def _are_numbers(value: Any) -> bool:
+    try:
+        array = np.asarray(value)
+    except ValueError:
+        return False
+    return array.dtype.kind in "if" and bool(np.all(np.isfinite(array)))
+
+
+def _stored_designs(path: Path, *, redesign: bool = False) -> dict[str, Any]:
+    """Return block -> its designed numbers, as a file has them; nothing where there is none.
+
+    Raises
+    ------
+    DesignError
+        If the file cannot be read, or does not hold that; where all is designed anew that is left out.
+    """
+    if not os.path.lexists(path):
+        return {}
+    mend = "mend it, or export with --redesign"
+    try:
+        stored = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise DesignError(f"{path}: cannot be read ({error.strerror}); make it readable, or move it") from None
+    except ValueError as error:
+        if redesign:
+            return {}
+        raise DesignError(f"{path}: not readable as JSON ({error}); {mend}") from None
+    if not isinstance(stored, dict):
+        if redesign:
+            return {}
+        raise DesignError(f"{path}: it holds no object of blocks and their designed numbers; {mend}")
+    sound = {
+        name: own
+        for name, own in stored.items()
+        if isinstance(own, dict) and isinstance(own.get("source"), str) and isinstance(own.get("values"), dict)
+    }
+    strange = [name for name in stored if name not in sound]
+    if strange and not redesign:
+        raise DesignError(f"{path}: the entry {strange[0]!r} has no source and values of designed numbers; {mend}")
+    return sound
+
+
+def write_design(path: Path, designed: dict[str, Any]) -> None:
+    """Write designed numbers into a design.json, beside those of other blocks; the file is replaced in one step.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    designed : dict
+        Block -> its numbers, as `with_design` returned them.
+
+    Raises
+    ------
+    FolderError
+        If it cannot be written.
+    """
+    write_file(
+        path, json.dumps(dict(sorted({**_stored_designs(path, redesign=True), **designed}.items())), indent=2) + "\n"
+    )
 
 
 def design_residuals(block: Block) -> list[CheckResult]:
@@ -577,4 +653,5 @@ __all__ = [
     "read_manifest",
     "run_vectors",
     "with_design",
+    "write_design",
 ]

@@ -12,12 +12,15 @@ from __future__ import annotations
 import csv
 import os
 import re
+import subprocess
 import tempfile
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
+
+import numpy as np
 
 from ..symbolic.block import Block
 from ..symbolic.program import Call, Entry, HoldFactors, HoldVariances, walk
@@ -35,6 +38,10 @@ OPTIONS = [
 
 EFFORTS = {"judgement": (2000,), "straight": (100, 1000), "sequence": (3000,)}
 """States that the analyser keeps apart, tried in this order, by what kind of function it is."""
+
+
+HELD = (Status.NOT_POSITIVE, Status.OVERFLOW, Status.OK, Status.CLAMPED)
+"""What the function that holds a matrix within its limits may return."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +70,7 @@ class Task:
     Attributes
     ----------
     name : str
-        The entry, or the helper without its prefix.
+        The entry, or the core or helper without the block's prefix, that of a part behind its name.
     source : str
         The C, with callees replaced by stubs.
     harness : str
@@ -94,12 +101,25 @@ def _fill(target: str, signals: Sequence[Signal], precision: Precision, *, anyth
     """Return assignments: numbers within their ranges, or any bit pattern."""
     lines = []
     for signal, k, name in _fields(signals):
-        value = {Kind.COUNT: "any_count", Kind.FLAG: "(any_count != 0U)"}.get(signal.kind, "any_real")
+        value = _ANYTHING[signal.kind]
         if signal.kind is Kind.REAL and not anything:
-            low, high = precision.literal(signal.low[k]), precision.literal(signal.high[k])
-            value = f"Frama_C_{precision.name}_interval({low}, {high})"
+            value = _interval(signal, k, precision)
         lines.append(f"    {target}.{name} = {value};")
     return lines
+
+
+_ANYTHING = {
+    Kind.REAL: "any_real",
+    Kind.COUNT: "any_count",
+    Kind.FLAG: "(any_count != 0U)",
+    Kind.STATUS: "any_status",
+}
+
+
+def _interval(signal: Signal, k: int, precision: Precision) -> str:
+    """Return any number within a range; one that begins at zero has a negative zero, which compares as equal."""
+    low, high = (precision.literal(end + 0.0) for end in (signal.low[k], signal.high[k]))
+    return f"Frama_C_{precision.name}_interval({f'-{low}' if signal.low[k] == 0.0 else low}, {high})"
 
 
 def _exact(value: float, precision: Precision) -> str:
@@ -108,65 +128,75 @@ def _exact(value: float, precision: Precision) -> str:
 
 
 def _holds(target: str, signals: Sequence[Signal], precision: Precision) -> list[str]:
+    """Return assertions: every number within its range, every count and flag written."""
     lines = []
     for signal, k, name in _fields(signals):
+        item = f"{target}.{name}"
         if signal.kind is Kind.REAL:
-            item, low, high = f"{target}.{name}", _exact(signal.low[k], precision), _exact(signal.high[k], precision)
+            low, high = _exact(signal.low[k], precision), _exact(signal.high[k], precision)
             lines.append(f"    //@ assert \\is_finite({item}) && {low} <= {item} <= {high};")
+        else:  # a copied struct tells nobody that a field of it was never written
+            lines.append(f"    //@ assert \\initialized(&{item});")
     return lines
 
 
-def _proof_of(block: Block, entry: Entry, precision: Precision) -> list[str]:
-    """Return the body of a harness that calls an entry once."""
-    name = block.name
-    memory, params = block.memory_group().members, block.param_group().members
-    lines, arguments = [f"    {name}_state_t state;"], ["&state"]
-    for has, kind, variable in (
-        (params, f"{name}_params_t", "params"),
-        (entry.inputs, f"{name}_{entry.name}_in_t", "in"),
-        (entry.outputs, f"{name}_{entry.name}_out_t", "out"),
-    ):
-        if has:
-            lines.append(f"    {kind} {variable};")
-            arguments.append(f"&{variable}")
-    lines.append(f"    {name}_status_t status;")
-    if not entry.checks_params:
-        lines += _fill("state", memory, precision, anything=False)
-    lines += _fill("params", params, precision, anything=entry.checks_params)
-    lines += _fill("in", entry.inputs, precision, anything=True)
-    lines.append(f"    status = {name}_{entry.name}({', '.join(arguments)});")
-    lines.append(f"    //@ assert {int(min(Status))} <= status <= {int(max(Status))};")
-    holds = _holds("state", memory, precision)
-    lines += ["    if (status >= 0)", "    {", *holds, "    }"] if entry.checks_params else holds
-    finite = [
-        f"    //@ assert \\is_finite(out.{field});"
-        for signal, _, field in _fields(entry.outputs)
-        if signal.kind is Kind.REAL
-    ]
-    return lines + (["    if (status >= 0)", "    {", *finite, "    }"] if finite else [])
+def _answers(target: str, signals: Sequence[Signal]) -> list[str]:
+    """Return assertions: every number finite, every status one of the enum, all else written."""
+    lines = []
+    for signal, _, name in _fields(signals):
+        item = f"{target}.{name}"
+        if signal.kind is Kind.REAL:
+            lines.append(f"    //@ assert \\is_finite({item});")
+        elif signal.kind is Kind.STATUS:
+            lines.append(
+                f"    //@ assert \\initialized(&{item}) && {int(min(Status))} <= {item} <= {int(max(Status))};"
+            )
+        else:
+            lines.append(f"    //@ assert \\initialized(&{item});")
+    return lines
 
+
+_STATUS = f"{int(min(Status))} <= status <= {int(max(Status))}"
 
 _TOLD = ["    if (status >= 0) { Frama_C_show_each_accepted(1); } else { Frama_C_show_each_refused(1); }"]
 """Both ways must be reached: a harness whose calls never return would prove anything."""
 
 
-class _Prover:
-    """Makes the tasks of one block."""
+def _accepted(lines: Sequence[str]) -> list[str]:
+    return ["    if (status >= 0)", "    {", *lines, "    }"] if lines else []
 
-    def __init__(self, block: Block, text: CText):
-        if block.parts:
-            raise ProofError(f"{block.name}: a composition is not proved as a whole; prove its parts")
-        self.block, self.text, self.name, self.precision = block, text, block.name, text.precision
-        self.memory = block.memory_group().members
+
+class _Prover:
+    """Makes the tasks of one block, or of a part at its place in a composition."""
+
+    def __init__(self, block: Block, text: CText, path: tuple[str, ...] = ()):
+        self.block, self.text, self.path, self.precision = block, text, path, text.precision
+        self.name, self.prefix = text.name, "_".join((text.name, *path))
+        self.status = f"{text.name}_status_t"
+        self.memory, self.params = block.memory_group().members, block.param_group().members
+        self.parts = {name: _Prover(part, text, (*path, name)) for name, part in block.parts.items()}
         self.hold = next(
             (item for entry in block.entries.values() for item in walk(entry.body) if isinstance(item, HoldVariances)),
             None,
         )
+        self.called = {
+            item.entry
+            for entry in block.entries.values()
+            for item in walk(entry.body)
+            if isinstance(item, Call) and not item.part
+        }
 
     def tasks(self) -> list[Task]:
-        """Return every function that must be proved: what judges, then the entries."""
-        found = self._judgements() if self.hold is not None else []
-        return found + [self._entry(entry) for entry in self.block.entries.values()]
+        """Return every function that must be proved: those of parts, what judges, cores, then what callers see."""
+        found = [task for part in self.parts.values() for task in part.tasks()]
+        found += self._judgements() if self.hold is not None else []
+        for entry in self.block.entries.values():
+            if entry.name in self.called or (self.path and self._has(f"{entry.name}_core")):
+                found.append(self._core(entry))
+        return found + ([] if self.path else [self._public(entry) for entry in self.block.entries.values()])
+
+    def _label(self, name: str) -> str:
+        return ".".join((*self.path, name))
 
     # -- what judges --------------------------------------------------------------------------------------------------
 
@@ -178,7 +208,7 @@ class _Prover:
         return (
             field,
             "factors" if factored else "covariance",
-            f"{self.name}_hold_{'factors' if factored else 'variances'}",
+            f"{self.prefix}_hold_{'factors' if factored else 'variances'}",
         )
 
     def _judgements(self) -> list[Task]:
@@ -189,17 +219,19 @@ class _Prover:
         tasks = []
         for helper in ("is_held", "is_bounded"):
             if self._has(helper):
-                body = [*anything, f"    if ({self.name}_{helper}(c))", "    {", *within, "    }"]
-                tasks.append(Task(helper, self.text.source, _function(body), "judgement", size))
-        stubs = {f"{self.name}_is_held": self._passing_stub()} if self._has("is_held") else {}
-        body = [*anything, f"    const {self.name}_status_t status = {holder}({'c' if size > 1 else '&c[0]'});"]
-        body += [f"    //@ assert {int(min(Status))} <= status <= {int(max(Status))};", "    if (status >= 0)", "    {"]
-        body += [*within, "    }", *_TOLD]
-        name = holder.removeprefix(f"{self.name}_")
+                body = [*anything, f"    if ({self.prefix}_{helper}(c))", "    {", *within, "    }"]
+                tasks.append(Task(self._label(helper), self.text.source, _function(body), "judgement", size))
+        stubs = {f"{self.prefix}_is_held": self._passing_stub()} if self._has("is_held") else {}
+        body = [*anything, f"    const {self.status} status = {holder}({'c' if size > 1 else '&c[0]'});"]
+        # what the stub may return, and nothing else
+        body.append(f"    //@ assert {' || '.join(f'status == {int(item)}' for item in HELD)};")
+        body += [*_accepted(within), *_TOLD]
+        name = self._label(holder.removeprefix(f"{self.prefix}_"))
         return [*tasks, Task(name, replaced(self.text.source, stubs), _function(body), "judgement", size + 1)]
 
     def _has(self, helper: str) -> bool:
-        return re.search(rf"^static bool {self.name}_{helper}\(", self.text.source, re.MULTILINE) is not None
+        pattern = rf"^static (bool|{self.status}) {self.prefix}_{helper}\("
+        return re.search(pattern, self.text.source, re.MULTILINE) is not None
 
     def _within(self, item: str, field: Signal, k: int) -> str:
         low, high = _exact(field.low[k], self.precision), _exact(field.high[k], self.precision)
@@ -214,48 +246,141 @@ class _Prover:
     def _holding_stub(self) -> list[str]:
         """It refuses and leaves anything, or leaves every element within its range."""
         field, array, _ = self._matrix()
-        real, upper, lines = self.precision.name, self.name.upper(), ["    if (any_count != 0U)", "    {"]
+        upper, lines = self.name.upper(), ["    if (any_count != 0U)", "    {"]
         lines += [f"        {array}[{k}] = any_real;" for k in range(field.size)]
-        lines += [f"        return (any_count != 0U) ? {upper}_NOT_POSITIVE : {upper}_OVERFLOW;", "    }"]
-        for k in range(field.size):
-            low, high = self.precision.literal(field.low[k]), self.precision.literal(field.high[k])
-            lines.append(f"    {array}[{k}] = Frama_C_{real}_interval({low}, {high});")
-        return [*lines, f"    return (any_count != 0U) ? {upper}_OK : {upper}_CLAMPED;"]
+        refused, held = ([f"{upper}_{item.name}" for item in HELD if (item < 0) is bad] for bad in (True, False))
+        lines += [f"        return (any_count != 0U) ? {' : '.join(refused)};", "    }"]
+        lines += [f"    {array}[{k}] = {_interval(field, k, self.precision)};" for k in range(field.size)]
+        return [*lines, f"    return (any_count != 0U) ? {' : '.join(held)};"]
 
     # -- entries ------------------------------------------------------------------------------------------------------
 
-    def _entry(self, entry: Entry) -> Task:
-        called = list(dict.fromkeys(item.entry for item in walk(entry.body) if isinstance(item, Call)))
-        stubs = {f"{self.name}_{name}_core": self._core_stub(self.block.entries[name]) for name in called}
+    def _public(self, entry: Entry) -> Task:
+        """Return the task of an entry as callers see it."""
+        name, arguments = self.prefix, ["&state"]
+        lines = [f"    {name}_state_t state;"]
+        for has, kind, variable in (
+            (self.params, f"{name}_params_t", "params"),
+            (entry.inputs, f"{name}_{entry.name}_in_t", "in"),
+            (entry.outputs, f"{name}_{entry.name}_out_t", "out"),
+        ):
+            if has:
+                lines.append(f"    {kind} {variable};")
+                arguments.append(f"&{variable}")
+        lines += [f"    {self.status} status;", *self._given(entry)]
+        lines += [f"    status = {name}_{entry.name}({', '.join(arguments)});", f"    //@ assert {_STATUS};"]
+        holds, answers = _holds("state", self.memory, self.precision), _answers("out", entry.outputs)
+        lines += _accepted(holds + self._judged(entry)) if entry.checks_params else holds
+        stubs = self._core_stubs([(self, entry)]) if entry.name in self.called else self._stubs(entry)
+        return self._task(entry, entry.name, [*lines, *_accepted(answers)], stubs)
+
+    def _core(self, entry: Entry) -> Task:
+        """Return the task of an entry's core: what the stub stands for where others call it."""
+        name, head = self.prefix, self._head(entry)
+        lines, arguments = [f"    {name}_state_t after;"], ["&after"]
+        if not entry.checks_params:
+            lines.append(f"    {name}_state_t state;")
+            arguments = ["&state", *arguments]
+        lines += [f"    {name}_params_t params;"] if self.params else []
+        lines += [f"    {name}_{entry.name}_in_t in;"] if entry.inputs else []
+        lines += [f"    {name}_{entry.name}_out_t out;"] if entry.outputs else []
+        arguments += ["&params"] if "*params" in head else []
+        arguments += [f"in.{signal.name}" for signal in entry.inputs]
+        for signal, _ in entry.hidden:
+            if signal.kind is not Kind.REAL or signal.size != 1:
+                raise ProofError(f"{self._label(entry.name)}: {signal.name} is no number; only numbers are passed on")
+            arguments.append(_interval(signal, 0, self.precision))
+        arguments += ["&out"] if entry.outputs else []
+        lines += [f"    {self.status} status;", *self._given(entry)]
+        lines += [f"    status = {name}_{entry.name}_core({', '.join(arguments)});", f"    //@ assert {_STATUS};"]
+        promised = [*_holds("after", self.memory, self.precision), *self._judged(entry)]
+        lines += _accepted([*promised, *_answers("out", entry.outputs)])
+        return self._task(entry, self._label(f"{entry.name}_core"), lines, self._stubs(entry))
+
+    def _given(self, entry: Entry) -> list[str]:
+        """Return assignments to what a call is given."""
+        lines = [] if entry.checks_params else _fill("state", self.memory, self.precision, anything=False)
+        lines += _fill("params", self.params, self.precision, anything=entry.checks_params)
+        return lines + _fill("in", entry.inputs, self.precision, anything=True)
+
+    def _judged(self, entry: Entry) -> list[str]:
+        """Return assertions: parameters that were accepted are within their ranges."""
+        return _holds("params", self.params, self.precision) if entry.checks_params else []
+
+    def _task(self, entry: Entry, name: str, lines: list[str], stubs: dict[str, list[str]]) -> Task:
+        told = _TOLD if self._may_be_refused(entry) else []
+        effort = "sequence" if any(isinstance(item, Call) for item in walk(entry.body)) else "straight"
+        source = replaced(self.text.source, stubs)
+        return Task(name, source, _function([*lines, *told]), effort, sum("//@ assert" in line for line in lines))
+
+    def _may_be_refused(self, entry: Entry) -> bool:
+        judged = self.params if entry.checks_params else entry.inputs
+        return any(signal.kind is Kind.REAL for signal, _, _ in _fields(judged))
+
+    # -- stubs --------------------------------------------------------------------------------------------------------
+
+    def _stubs(self, entry: Entry) -> dict[str, list[str]]:
+        """Return stubs for all that the core of an entry calls."""
+        calls = dict.fromkeys((item.part, item.entry) for item in walk(entry.body) if isinstance(item, Call))
+        owners = [(self.parts[part] if part else self, name) for part, name in calls]
+        stubs = self._core_stubs([(owner, owner.block.entries[name]) for owner, name in owners])
         if self.hold is not None:
             _, _, holder = self._matrix()
             stubs[holder] = self._holding_stub()
             if self._has("is_bounded"):
-                stubs[f"{self.name}_is_bounded"] = self._passing_stub()
-        body = [*_proof_of(self.block, entry, self.precision), *(_TOLD if self._may_be_refused(entry) else [])]
-        least = sum(signal.kind is Kind.REAL for signal, _, _ in _fields(self.memory))
-        effort = "sequence" if called else "straight"
-        return Task(entry.name, replaced(self.text.source, stubs), _function(body), effort, least + 1)
+                stubs[f"{self.prefix}_is_bounded"] = self._passing_stub()
+        return stubs
 
-    def _may_be_refused(self, entry: Entry) -> bool:
-        return bool(entry.inputs) or entry.checks_params
+    @staticmethod
+    def _core_stubs(called: Sequence[tuple[_Prover, Entry]]) -> dict[str, list[str]]:
+        return {f"{owner.prefix}_{entry.name}_core": owner._core_stub(entry) for owner, entry in called}
+
+    def _head(self, entry: Entry) -> str:
+        return _definition(self.text.source, f"{self.prefix}_{entry.name}_core")[2]
 
     def _core_stub(self, entry: Entry) -> list[str]:
         """What an entry's core promises: refused and anything, or memory within its ranges and finite outputs."""
-        head = _definition(self.text.source, f"{self.name}_{entry.name}_core")[2]
-        lines = ["    //@ assert before != after;", *_holds("(*before)", self.memory, self.precision)]
-        lines += ["    if (any_count != 0U)", "    {"]
-        lines += [f"    {line}" for line in _fill("(*after)", self.memory, self.precision, anything=True)]
-        lines += [f"        return ({self.name}_status_t)Frama_C_interval({int(min(Status))}, -1);", "    }"]
+        lines: list[str] = []
+        if not entry.checks_params:
+            lines += ["    //@ assert before != after;", *_holds("(*before)", self.memory, self.precision)]
+            if "*params" in self._head(entry):
+                lines += _holds("(*params)", self.params, self.precision)
+        for signal, _ in entry.hidden:
+            lines.append(f"    //@ assert {self._within(signal.name, signal, 0)};")
+        lines += ["    if (any_count != 0U)", "    {", f"        {_leaves(f'{self.prefix}_state_t')}(after);"]
+        lines += [f"        {_leaves(f'{self.prefix}_{entry.name}_out_t')}(out);"] if entry.outputs else []
+        lines += [f"        return ({self.status})Frama_C_interval({int(min(Status))}, -1);", "    }"]
         lines += _fill("(*after)", self.memory, self.precision, anything=False)
-        most = "3.4e38f" if self.precision.is_float else "1.7e308"
-        if "*out" in head:
-            lines += [
-                f"    out->{name} = Frama_C_{self.precision.name}_interval(-{most}, {most});"
-                for signal, _, name in _fields(entry.outputs)
-                if signal.kind is Kind.REAL
+        most = float(np.finfo(self.precision.dtype).max).hex() + ("f" if self.precision.is_float else "")
+        worth = {
+            **_ANYTHING,
+            Kind.REAL: f"Frama_C_{self.precision.name}_interval(-{most}, {most})",
+            Kind.STATUS: f"({self.status})Frama_C_interval({int(min(Status))}, {int(max(Status))})",
+        }
+        lines += [f"    out->{name} = {worth[signal.kind]};" for signal, _, name in _fields(entry.outputs)]
+        if entry.checks_params:
+            lines += [line.replace("assert", "admit") for line in _holds("(*params)", self.params, self.precision)]
+        return [*lines, f"    return ({self.status})Frama_C_interval(0, {int(max(Status))});"]
+
+    def leavings(self) -> dict[str, str]:
+        """Return functions that leave anything, or what was there, in each field of a struct, by name."""
+        found = {name: text for part in self.parts.values() for name, text in part.leavings().items()}
+        structs = {f"{self.prefix}_state_t": self.memory}
+        for entry in self.block.entries.values():
+            if entry.outputs:
+                structs[f"{self.prefix}_{entry.name}_out_t"] = entry.outputs
+        for struct, signals in structs.items():
+            lines = [
+                f"    if (any_count != 0U) {{ {line.strip()} }}"
+                for line in _fill("(*item)", signals, self.precision, anything=True)
             ]
-        return [*lines, f"    return ({self.name}_status_t)Frama_C_interval(0, {int(max(Status))});"]
+            name = _leaves(struct)
+            found[name] = "\n".join([f"static void {name}({struct} *item)", "{", "    (void)item;", *lines, "}", ""])
+        return found
+
+
+def _leaves(struct: str) -> str:
+    return f"leave_{struct}"
 
 
 def _function(body: Sequence[str]) -> str:
@@ -288,7 +413,7 @@ def proof_tasks(block: Block, text: CText) -> list[Task]:
     Raises
     ------
     ProofError
-        If the block is a composition, or the C is not of the expected form.
+        If the C is not of the expected form.
     """
     return _Prover(block, text).tasks()
 
@@ -297,9 +422,14 @@ def proof_source(block: Block, text: CText, task: Task) -> str:
     """Return the C that the analyser reads: the library with stubs, and the harness behind it."""
     include = f'#include "{block.name}.h"\n'
     at = task.source.index(include) + len(include)
-    real = text.precision.name
-    own = f'#include "__fc_builtin.h"\nstatic volatile {real} any_real;\nstatic volatile uint32_t any_count;\n'
-    return task.source[:at] + own + task.source[at:] + "\n" + task.harness + "\n"
+    own = [
+        '#include "__fc_builtin.h"',
+        f"static volatile {text.precision.name} any_real;",
+        "static volatile uint32_t any_count;",
+        f"static volatile {block.name}_status_t any_status;",
+        *[leaving for name, leaving in _Prover(block, text).leavings().items() if name in task.source],
+    ]
+    return task.source[:at] + "\n".join(own) + "\n" + task.source[at:] + "\n" + task.harness + "\n"
 
 
 def analyse(
@@ -324,17 +454,18 @@ def analyse(
     ------
     MissingTool
         If frama-c is not installed.
-    RuntimeError
-        If it ended without a report.
+    ProofError
+        If it ended without a report: it could not read the C.
     """
     program = tool("frama-c", "frama-c-base")
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
         (folder / f"{block.name}.h").write_text(text.header)
-        (folder / "proof_main.c").write_text(proof_source(block, text, task))
-        helpers = sorted({word.split("(")[0] for word in text.source.split() if word.startswith(f"{block.name}_math_")})
-        # what computes and stores nothing needs no case distinction
-        bounded = ",".join(f"{helper}:0" for helper in helpers)
+        source = proof_source(block, text, task)
+        (folder / "proof_main.c").write_text(source)
+        # neither what computes and stores nothing nor what leaves anything needs a case distinction
+        plain = rf"^static \w+ ({block.name}_math_\w+|{_leaves(block.name)}\w+)\("
+        bounded = ",".join(f"{helper}:0" for helper in sorted(set(re.findall(plain, source, re.MULTILINE))))
         command = [program, *OPTIONS, "-eva-slevel", str(effort)]
         command += ["-eva-slevel-function", bounded] if bounded else []
         report = folder / "report.csv"
@@ -342,7 +473,10 @@ def analyse(
         command += ["-main=prove", str(folder / "proof_main.c"), "-then", "-report-csv", str(report)]
         done = run_tool(command, folder, seconds=seconds)
         if done.returncode != 0 or not report.is_file():
-            raise RuntimeError(f"frama-c ended with {done.returncode}: {(done.stdout + done.stderr)[-1000:]}")
+            said = " ".join((done.stdout + done.stderr).split())[-400:]
+            raise ProofError(
+                f"{block.name}: frama-c ended with {done.returncode} and no report; mend the C, or export again: {said}"
+            )
         with report.open() as rows:
             found = [
                 Property(row["function"], row["property kind"], row["status"], row["property"])
@@ -365,7 +499,11 @@ def prove_task(block: Block, text: CText, task: Task, *, seconds: float = 300.0)
     needed = {"accepted", "refused"} if "show_each" in task.harness else set()
     started, note, count = time.perf_counter(), "", 0
     for effort in EFFORTS[task.effort]:
-        properties, ways = analyse(block, text, task, effort, seconds=seconds)
+        try:
+            properties, ways = analyse(block, text, task, effort, seconds=seconds)
+        except subprocess.TimeoutExpired:
+            note = f"frama-c was not done after {seconds:.0f} s, with {effort} states kept apart"
+            break
         own = [item for item in properties if item.function == "prove" and item.kind == "user assertion"]
         open_ones = [item for item in properties if not item.is_proved]
         count = len(properties)
@@ -402,7 +540,7 @@ def prove(block: Block, text: CText, names: Sequence[str] = (), *, seconds: floa
     MissingTool
         If frama-c is not installed.
     ProofError
-        If the block is a composition, or the C is not of the expected form.
+        If the C is not of the expected form.
     """
     tasks = [task for task in proof_tasks(block, text) if not names or task.name in names]
     with ThreadPoolExecutor(max(1, os.cpu_count() or 1)) as pool:

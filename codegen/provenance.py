@@ -146,14 +146,16 @@ class Provenance:
 def marked(lines: Sequence[str], table: list[Parent]) -> str:
     """Return lines as one text that keeps the parent of each through a template; `unmarked` takes it out again."""
     answer = []
+    at = {parent: k for k, parent in enumerate(table)}
     for line in lines:
         parent = line.parent if isinstance(line, TracedLine) else None
         if parent is None or not line.strip():
             answer.append(str(line))
             continue
-        if parent not in table:
+        if parent not in at:
+            at[parent] = len(table)
             table.append(parent)
-        answer.append(f"{line}{_MARK}{table.index(parent)}")
+        answer.append(f"{line}{_MARK}{at[parent]}")
     return "\n".join(answer)
 
 
@@ -177,16 +179,14 @@ def unmarked(text: str, table: Sequence[Parent]) -> tuple[str, Provenance]:
                 helper = Parent("helper", f"{name}: {purpose}" if name else purpose)
                 for k in range(first, last + 1):
                     found[k] = helper
-    parents: list[Parent] = []
+    at: dict[Parent, int] = {}
     positions: list[int | None] = []
     for k, parent in enumerate(found):
         if parent is None or not code_lines[k]:
             positions.append(None)
             continue
-        if parent not in parents:
-            parents.append(parent)
-        positions.append(parents.index(parent))
-    return "\n".join(clean), Provenance(parents, positions, functions)
+        positions.append(at.setdefault(parent, len(at)))
+    return "\n".join(clean), Provenance(list(at), positions, functions)
 
 
 def orphans(source: str, provenance: Provenance) -> list[int]:

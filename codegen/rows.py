@@ -13,7 +13,7 @@ import re
 from collections import Counter
 
 from ..symbolic.kernels import SMALLEST_VARIANCE
-from ..symbolic.program import packed_index, packed_size
+from ..symbolic.program import HoldFactors, packed_index, packed_size
 from .style import Precision, wrap_line
 
 
@@ -140,7 +140,12 @@ def pair_operations(size: int) -> Counter[str]:
 
 
 def bounded_helper(
-    prefix: str, precision: Precision, size: int, floor: tuple[float, ...], limits: tuple[float, ...]
+    prefix: str,
+    precision: Precision,
+    size: int,
+    floor: tuple[float, ...],
+    limits: tuple[float, ...],
+    array: str = "covariance",
 ) -> list[str]:
     """Return the test that passes a covariance at once: sufficient, and what it does not pass is looked at closely.
 
@@ -150,21 +155,24 @@ def bounded_helper(
     """
     real, packed = precision.name, packed_size(size)
     diagonal = [packed_index(size, i, i) for i in range(size)]
-    clauses = [_true(f"{_element(at)} >= {precision.literal(low)}") for at, low in zip(diagonal, floor, strict=True)]
+    clauses = [
+        _true(f"{_element(at, array)} >= {precision.literal(low)}") for at, low in zip(diagonal, floor, strict=True)
+    ]
     for group in _groups(diagonal, limits):
         most = precision.literal(_rounded_down(0.99 * limits[group[0]]))
-        clauses.append(_true(f"{_sum(group)} <= {most}"))
+        clauses.append(_true(f"{_sum(group, array)} <= {most}"))
     for group in _groups([at for at in range(packed) if at not in diagonal], limits):
         limit = limits[group[0]]
         most = precision.literal(_rounded_down(limit / (2 * len(group))))
         least = precision.literal(-_rounded_down(limit / 2))
-        clauses += [_true(f"{_element(at)} <= {most}") for at in group]
-        clauses.append(_true(f"{_sum(group)} >= {least}"))
+        clauses += [_true(f"{_element(at, array)} <= {most}") for at in group]
+        clauses.append(_true(f"{_sum(group, array)} >= {least}"))
+    what = "a covariance is within its" if array == "covariance" else "factors are within their"
     return [
         "",
-        "/* Whether a covariance is within its bounds beyond doubt. Elements that are small, and whose sum is not far below",
+        f"/* Whether {what} bounds beyond doubt. Elements that are small, and whose sum is not far below",
         " * zero, are not far below zero themselves. False for NaN. */",
-        f"static bool {prefix}_is_bounded(const {real} covariance[{packed}])",
+        f"static bool {prefix}_is_bounded(const {real} {array}[{packed}])",
         "{",
         f"    return {clauses[0]}",
         *[line for clause in clauses[1:-1] for line in wrap_line(f"&& {clause}", " " * 11)],
@@ -174,6 +182,16 @@ def bounded_helper(
 
 
 _LONGEST_SUM = 8
+
+
+def certain_factors(hold: HoldFactors) -> tuple[float, ...]:
+    """Return limits of packed factors, each for the elements of its group, under which `HoldFactors` changes nothing."""
+    most, total = hold.certain()
+    groups = -(-hold.size // _LONGEST_SUM)
+    own = iter(hold.limits())
+    return tuple(
+        min(next(own), total / groups if i == j else most) for i in range(hold.size) for j in range(i, hold.size)
+    )
 
 
 def _groups(elements: list[int], limits: tuple[float, ...]) -> list[list[int]]:
@@ -186,18 +204,18 @@ def _groups(elements: list[int], limits: tuple[float, ...]) -> list[list[int]]:
     ]
 
 
-def _element(at: int) -> str:
-    return f"covariance[{at}]"
+def _element(at: int, array: str) -> str:
+    return f"{array}[{at}]"
 
 
 def _true(text: str) -> str:
     return f"(({text}) == true)"
 
 
-def _sum(group: list[int]) -> str:
-    text = _element(group[0])
+def _sum(group: list[int], array: str) -> str:
+    text = _element(group[0], array)
     for k, at in enumerate(group[1:], start=1):
-        text = f"{text} + {_element(at)}" if k == 1 else f"({text}) + {_element(at)}"
+        text = f"{text} + {_element(at, array)}" if k == 1 else f"({text}) + {_element(at, array)}"
     return f"({text})" if len(group) > 1 else text
 
 

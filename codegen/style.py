@@ -4,11 +4,20 @@ from __future__ import annotations
 
 import math
 import textwrap
+import unicodedata
 from dataclasses import dataclass
 
 import numpy as np
 
+from ..symbolic.errors import ModelError
+
 WIDTH = 120
+
+LOSS = 1e-4
+"""Relative error of a literal beyond which it is refused: below 1.2e-38 single precision runs out of digits."""
+
+_BIDIRECTIONAL = frozenset("\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
+"""Characters that change the order in which text is shown: what a reviewer reads is not what a compiler reads."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +47,10 @@ class Precision:
                 single = np.float32(value)
             if not np.isfinite(single):
                 raise OverflowError(f"the number {value!r} does not fit into single precision")
+            if abs(float(single) - value) > LOSS * abs(value):
+                raise OverflowError(
+                    f"the number {value!r} is too small for single precision, where it would become {float(single):.2g}"
+                )
             text = np.format_float_scientific(single, unique=True, trim="0")
             text = _plain(text, float(single))
             return f"{text}f"
@@ -83,8 +96,21 @@ def wrap_line(text: str, indent: str, joint: str = " ", hanging: str = "    ") -
 
 
 def comment_safe(text: str) -> str:
-    """Return text that neither ends a comment nor starts another, on one line."""
-    return " ".join(text.replace("*/", "* /").replace("/*", "/ *").split())
+    """Return text that neither ends a comment nor starts another, on one line.
+
+    Raises
+    ------
+    ModelError
+        If it holds a character that hides or reorders text.
+    """
+    line = " ".join(text.replace("*/", "* /").replace("/*", "/ *").split())
+    for character in line:
+        if character in _BIDIRECTIONAL or unicodedata.category(character) in ("Cc", "Cs"):
+            raise ModelError(
+                f"the text {line[:60]!r} holds the control character U+{ord(character):04X}, which shows other text than a "
+                "compiler reads; take it out of the doc or the unit"
+            )
+    return line
 
 
 def comment_lines(text: str, indent: str) -> list[str]:

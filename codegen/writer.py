@@ -6,6 +6,7 @@ Every kernel becomes a block of constants that ends in stores to the candidate m
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -54,6 +55,7 @@ _INFIX = {
 _COUNTED = {"add": "addition", "sub": "addition", "mul": "multiplication", "div": "division", "neg": "negation"}
 _LONGEST_INLINE = 84
 _LONGEST_SCALE = 8
+_LARGEST_GUARDED = 8000
 
 Slot = tuple[Place, int]
 
@@ -158,20 +160,58 @@ class CoreWriter:
         if is_sequenced(self.entry):
             self._sequence()
         else:
-            self._plain()
+            self._plain(self._judged_inputs())
+            if len(self.lines) * self._comparisons() > _LARGEST_GUARDED:
+                return self._judged_apart()
         head = wrap_signature(self.signature())
         frame = self.genealogy.parent("entry", self.entry.doc or f"the entry {self.entry.name}")
         return CoreText(TracedLines([*head, "{", *self.lines, "}"], frame), self.operations, self.functions, self.own)
 
-    def _plain(self) -> None:
+    def _judged_inputs(self) -> list[Refuse]:
+        """Return the judgement of the entry's inputs, if it has any."""
+        judged = self.block.judge_inputs(self.entry)
+        return [Refuse(Status.BAD_INPUT, judged)] if isinstance(judged, AllOf) and judged.conditions else []
+
+    def _comparisons(self) -> int:
+        """Return how many comparisons the judgement of the inputs takes."""
+        return sum(len(self._clauses(item.unless)) for item in self._judged_inputs())
+
+    def _judged_apart(self) -> CoreText:
+        """Return the core in two functions: one judges the inputs and calls the other, which does the rest.
+
+        cppcheck (2.10) goes through all that a condition guards once for each of its comparisons: over a long body that
+        takes it minutes.
+        """
+        inner, outer = (CoreWriter(self.block, self.entry, self.prefix, self.style, self.root) for _ in range(2))
+        name = f"{self.prefix}_{self.entry.name}_judged"
+        inner._plain([])
+        frame = self.genealogy.parent("entry", self.entry.doc or f"the entry {self.entry.name}")
+        signature = self.signature()
+        own = signature.replace(f"{core_name(self.prefix, self.entry)}(", f"{name}(", 1)
+        first = [*wrap_signature(own), "{", *inner.lines, "}", ""]
+        names = [
+            re.split(r"\W+", item.split("[")[0])[-1] for item in signature.partition("(")[2].rstrip(")").split(", ")
+        ]
+        outer._bookkeeping("the status to be returned")
+        outer._line(f"{self.root}_status_t status = {self.upper}_OK;")
+        (judgement,) = outer._judged_inputs()
+        outer.lines.parent = outer.genealogy.of(judgement)
+        outer._refuse(judgement, [])
+        outer._open("else")
+        outer._line(f"status = {name}({', '.join(names)});")
+        outer._close()
+        outer._bookkeeping("the status to be returned")
+        outer._line("return status;")
+        second = [*wrap_signature(signature), "{", *outer.lines, "}"]
+        return CoreText(TracedLines([*first, *second], frame), inner.operations, inner.functions, inner.own)
+
+    def _plain(self, judged: Sequence[Refuse]) -> None:
         entry = self.entry
         u = self.upper
         body: list[Statement] = list(entry.body)
-        judged = self.block.judge_inputs(entry)
         if entry.checks_params and (self.block.param_signals):
             body.insert(0, Refuse(Status.BAD_PARAM, self.block.judge_params()))
-        if isinstance(judged, AllOf) and judged.conditions:
-            body.insert(0, Refuse(Status.BAD_INPUT, judged))
+        body = [*judged, *body]
         untouched = self._untouched(body)
         self._statements(body)
         text = self.lines
@@ -190,7 +230,7 @@ class CoreWriter:
             self._line("")
         if not self.block.memory_group().members:
             self._line("after->unused = 0U;")
-        if not self.entry.checks_params and not any("before" in line for line in (*self.lines, *text)):
+        if not self.entry.checks_params and not any(map(_reads_before, (*self.lines, *text))):
             self._line("(void)before;")
         self.lines += text
         self._bookkeeping("the status to be returned")
@@ -503,13 +543,9 @@ class CoreWriter:
         base = ("&" if statement.size == 1 else "") + self._base(statement.target)
         self._line("")
         self._comment("judge, then commit")
-        if isinstance(statement, HoldFactors):
-            self._line(f"status = {self.prefix}_hold_factors({base});")
-            self.functions.add("hold_variances")
-            self.versions[statement.target] += 1
-            return
+        holder = "hold_factors" if isinstance(statement, HoldFactors) else "hold_variances"
         self._open(f"if (!{self.prefix}_is_bounded({base}))")
-        self._line(f"status = {self.prefix}_hold_variances({base});")
+        self._line(f"status = {self.prefix}_{holder}({base});")
         self.functions.add("hold_variances")
         self._close()
         self.versions[statement.target] += 1
@@ -617,11 +653,12 @@ class CoreWriter:
                         node.hint = stem
                 values.append(current)
             answers = kernel.scalar(*values)
-            for (place, size), answer in zip(kernel.writes, answers, strict=True):
+            for k, ((place, size), answer) in enumerate(zip(kernel.writes, answers, strict=True)):
                 if place.space == "local":
                     self.arrays.setdefault(place, size)
                     self.names[0].add(place.name)
-                for i, node in enumerate(answer):
+                for i in kernel.order(k):
+                    node = answer[i]
                     if node is not None:
                         pending[place, i] = self.graph.const(node) if isinstance(node, float) else node
             comments += kernel.comment
@@ -898,7 +935,7 @@ def needs_params(block: Block, entry: Entry) -> bool:
             if any(isinstance(item, Place) and item.space == "param" for _, item in statement.arguments):
                 return True
         elif isinstance(statement, Evaluate):
-            used = _inputs_used(statement)
+            used = inputs_used(statement)
             if any(place.space == "param" for place in used):
                 return True
         elif any(_mentions_param(item) for item in vars(statement).values()):
@@ -906,7 +943,8 @@ def needs_params(block: Block, entry: Entry) -> bool:
     return False
 
 
-def _inputs_used(statement: Evaluate) -> set[Place]:
+def inputs_used(statement: Evaluate) -> set[Place]:
+    """Return the places that an expression depends on, of all that it is given."""
     positions = {step.place for step in tape(statement.function).steps if step.operation == "input"}
     used = set()
     for argument, places in enumerate(statement.reads):
@@ -934,6 +972,11 @@ def _mentions_param(item: Any) -> bool:
             return item.flag.place.space == "param"
         case _:
             return False
+
+
+def _reads_before(line: str) -> bool:
+    """Whether a line of C uses the argument `before`: not a field whose name ends so, nor a comment."""
+    return re.search(r"\bbefore(?:->|,|\))", line) is not None and not line.lstrip().startswith(("/*", "*"))
 
 
 def _targets(statement: Statement) -> set[Place]:

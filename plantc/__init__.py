@@ -25,9 +25,19 @@ from .codegen import InterpretView, NativeView, ReferenceView, Trace, cross_chec
 from .symbolic import Attitude, Block, ModelError, Plant, Status
 from .symbolic.analysis import OperatingPoint, linearise, trim
 from .symbolic.composition import connect, delay, wires
-from .symbolic.controllers import state_feedback
+from .symbolic.controllers import (
+    low_pass,
+    notch,
+    pid,
+    rate_limiter,
+    saturation,
+    state_feedback,
+    state_space,
+    transfer_function,
+)
 from .symbolic.design import Gain, ackermann, lqr, place, place_chains
 from .symbolic.estimators import extended_kalman_filter, kalman_filter, steady_state_kalman_filter
+from .symbolic.james_stein import james_stein_estimator
 
 __all__ = [
     "Attitude",
@@ -48,13 +58,21 @@ __all__ = [
     "emit",
     "export",
     "extended_kalman_filter",
+    "james_stein_estimator",
     "kalman_filter",
     "linearise",
+    "low_pass",
     "lqr",
+    "notch",
+    "pid",
     "place",
     "place_chains",
+    "rate_limiter",
+    "saturation",
     "state_feedback",
+    "state_space",
     "steady_state_kalman_filter",
+    "transfer_function",
     "trim",
     "wires",
 ]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ctypes
 import json
+import os
 import re
 import sys
 import time
@@ -32,6 +34,7 @@ from .codegen.package import (
     read_manifest,
     text_in,
     with_design,
+    write_design,
 )
 from .codegen.proof import prove
 from .codegen.rounding import Bound, bound_rounding
@@ -44,12 +47,42 @@ from .symbolic import Block
 GOOD, CHECK_FAILED, USER_MUST_MEND = 0, 1, 2
 
 
+class _Diverted:
+    """Standard output sent to standard error, down to the file descriptor, until it is given back.
+
+    What a model prints is a message, also where it is a program that the model starts, or a library in C.
+    """
+
+    def __init__(self) -> None:
+        self.stream = sys.stdout
+        self.own: int | None = None
+        sys.stdout = sys.stderr
+        try:
+            self.stream.flush()
+            self.own = os.dup(1)
+            os.dup2(2, 1)
+        except (OSError, ValueError):  # a closed one needs no diversion
+            self.own = None
+
+    def end(self) -> None:
+        """Give standard output back."""
+        if os.name == "posix":
+            ctypes.CDLL(None).fflush(None)
+        sys.stdout = self.stream
+        if self.own is not None:
+            os.dup2(self.own, 1)
+            os.close(self.own)
+            self.own = None
+
+
 class Session:
     """One run of a command: where its messages go, and how it ends."""
 
     def __init__(self, as_json: bool, debug: bool):
         self.as_json, self.debug = as_json, debug
         self.console = Console(stderr=True, highlight=False, soft_wrap=True, emoji=False)
+        self.diverted: _Diverted | None = None
+        self.finished = False
 
     def say(self, text: str) -> None:
         """Print a message, to standard error."""
@@ -57,18 +90,28 @@ class Session:
 
     def finish(self, result: dict[str, Any], summary: str, status: int) -> NoReturn:
         """Print the JSON object if asked for, then the summary, and leave."""
+        self.finished = True
+        self._give_back()
         if self.as_json:
             click.echo(json.dumps({"status": status, "summary": summary, **result}, indent=2))
         self.say(summary)
         sys.exit(status)
 
+    def _give_back(self) -> None:
+        if self.diverted is not None:
+            self.diverted.end()
+            self.diverted = None
+
     def run(self, body: Callable[[], NoReturn]) -> NoReturn:
         """Run a command; whatever goes wrong becomes one sentence and an exit status."""
+        self.diverted = _Diverted()
         try:
             body()
         except KeyboardInterrupt:
             self.finish({"error": "interrupted"}, "interrupted: what was being written is as it was", USER_MUST_MEND)
-        except Exception as error:
+        except BaseException as error:  # the user's own code runs here, and may raise anything
+            if self.finished:
+                raise
             if self.debug:
                 traceback.print_exc()
             if isinstance(error, ExportError):
@@ -76,6 +119,8 @@ class Session:
                 self.finish({"error": str(error), "checks": checks}, f"failed: {error}", CHECK_FAILED)
             text = sentence(error)
             self.finish({"error": text}, f"error: {text}", USER_MUST_MEND)
+        finally:
+            self._give_back()
         raise AssertionError("a command ends by finish")
 
     def progress(self) -> Progress:
@@ -234,6 +279,7 @@ def _derived_text(answer: dict[str, Any]) -> list[str]:
     "--jobs", type=click.IntRange(1, 64), default=1, show_default=True, help="Blocks that are exported at a time."
 )
 @click.option("--no-cache", is_flag=True, help="Do all work anew, even if the same export was done before.")
+@click.option("--force", is_flag=True, help="Write over files of an earlier export even if they were changed since.")
 @click.option("--fmu", is_flag=True, help="Write an FMI 2.0 co-simulation unit of the same C too, BLOCK.fmu.")
 @click.option("--tables", is_flag=True, help="Also measure the tables that the model brings; may take minutes.")
 @_target
@@ -268,6 +314,7 @@ def export_command(
     redesign: bool,
     jobs: int,
     no_cache: bool,
+    force: bool,
     fmu: bool,
     as_json: bool,
     debug: bool,
@@ -281,11 +328,14 @@ def export_command(
         options = _options(precision, **machine)
         if options.tables and not any(block.tables for block in blocks):
             raise UsageError(f"{path}: --tables is given, but no block brings a table; leave it out")
+        how = {"steps": steps, "fmu": fmu, "cached": not no_cache, "force": force}
         if jobs > 1 and len(blocks) > 1:
-            for block in blocks:  # the one file that all of them would write
-                with_design(block, path.parent / "design.json", redesign=redesign)
-            _finish_jobs(session, parallel.export_all(path, blocks, out, options, steps, fmu, not no_cache, jobs))
-        exports = _export_all(session, blocks, path, out, options, steps, redesign, fmu, not no_cache)
+            outcomes = parallel.export_all(path, blocks, out, options, redesign, how, jobs)
+            designed = {name: numbers for outcome in outcomes for name, numbers in outcome.designed.items()}
+            if designed:  # the one file that all of them would write
+                _write_design(session, path, designed)
+            _finish_jobs(session, outcomes)
+        exports = _export_all(session, blocks, path, out, options, redesign, how)
         result = {"blocks": [export_json(item) for item in exports]}
         folders = ", ".join(str(item.folder) for item in exports)
         session.finish(result, f"exported, {_verdict(result)}: {folders}", GOOD)
@@ -330,16 +380,13 @@ def _export_all(
     path: Path,
     out: Path,
     options: Options,
-    steps: int,
-    redesign: bool,
-    fmu: bool = False,
-    cached: bool = False,
+    redesign: bool = False,
+    how: dict[str, Any] | None = None,
 ) -> list[Export]:
+    """Export blocks one after the other; `how` is for `export`."""
     exports = []
     for given in blocks:
-        block, wrote = with_design(given, path.parent / "design.json", redesign=redesign)
-        if wrote:
-            session.say(f"{block.name}: designed numbers written to {path.parent / 'design.json'}")
+        block, designed = with_design(given, path.parent / "design.json", redesign=redesign, write=False)
         started = time.perf_counter()
         with session.progress() as display:
             task = display.add_task(block.name, total=None)
@@ -347,10 +394,18 @@ def _export_all(
             def report(what: str, done: int, total: int, task: Any = task, name: str = block.name) -> None:
                 display.update(task, description=f"{name}: {what}", completed=done, total=total)
 
-            exports.append(export(block, out, options=options, steps=steps, progress=report, fmu=fmu, cached=cached))
+            exports.append(export(block, out, options=options, progress=report, **(how or {})))
+        if designed is not None:  # now that nothing stands against it
+            _write_design(session, path, {block.name: designed})
         for line in evidence_text(exports[-1], time.perf_counter() - started):
             session.say(line)
     return exports
+
+
+def _write_design(session: Session, path: Path, designed: dict[str, Any]) -> None:
+    file = path.parent / "design.json"
+    write_design(file, designed)
+    session.say(f"{', '.join(designed)}: designed numbers written to {file}")
 
 
 @main.command(name="check")
@@ -422,6 +477,11 @@ def check_command(
 
 def _proved(session: Session, block: Block, folder: Path, manifest: dict[str, Any]) -> list[CheckResult]:
     """Prove, and return a check for each function; both tools are asked for first."""
+    if manifest.get("contract") == "on":
+        raise UsageError(
+            f"{folder}: it was exported with --contract on, and what a compiler may fuse is not what --prove looks at; "
+            "export it with --contract off"
+        )
     for name, package in (("frama-c", "frama-c-base"), ("gappa", "gappa")):
         tool(name, package)
     session.say(f"{block.name}: Frama-C, function by function; a filter of twelve states takes minutes")
@@ -430,9 +490,6 @@ def _proved(session: Session, block: Block, folder: Path, manifest: dict[str, An
 
 def _bounded(session: Session, block: Block, manifest: dict[str, Any]) -> list[Bound]:
     """Bound what one call loses to rounding, and print it."""
-    if manifest.get("contract") == "on":
-        session.say("  rounding: no bounds, because fused operations are allowed; export with --contract off")
-        return []
     precision = Precision(manifest["precision"])
     bounds = bound_rounding(block, precision, mathematics=manifest.get("mathematics", "own"))
     for line in rounding_text(bounds, precision):
@@ -515,7 +572,7 @@ def demo_command(out: Path, as_json: bool, debug: bool) -> None:
             "The extended Kalman filter of a 12-state quadrotor: derived, written as C, compiled, cross-checked."
         )
         path = Path(__file__).resolve().parent
-        exports = _export_all(session, [quadrotor_ekf], path / "demo.py", out, Options(), 100, False)
+        exports = _export_all(session, [quadrotor_ekf], path / "demo.py", out, Options())
         image = picture(quadrotor_ekf, out / "quadrotor_ekf.svg")
         session.say(f"  the compiled C at work: {image}")
         result = {"blocks": [export_json(item) for item in exports], "picture": str(image)}

@@ -23,7 +23,7 @@ from .models import UsageError
 from .symbolic import ModelError
 
 
-def sentence(error: Exception) -> str:
+def sentence(error: BaseException) -> str:
     """Return what the user reads of an error that stops a command."""
     if isinstance(error, (UsageError, ModelError, DesignError, CompilerError, AuditError, MissingTool, ProofError)):
         return str(error)

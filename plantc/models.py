@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import linecache
 import runpy
 import sys
@@ -38,9 +37,10 @@ def load(model: str) -> tuple[dict[str, Any], str, Path]:
     linecache.checkcache()
     sys.path.insert(0, str(path.resolve().parent))
     try:
-        with contextlib.redirect_stdout(sys.stderr):  # what a model prints is a message, never part of the JSON
-            names = runpy.run_path(str(path))
-    except (Exception, SystemExit) as error:
+        names = runpy.run_path(str(path))
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # a model may raise anything
         raise UsageError(_where(path, error)) from error
     finally:
         sys.path.pop(0)

@@ -18,16 +18,17 @@ from .symbolic import Block
 
 @dataclass
 class Outcome:
-    """What became of one block: exit status, lines for the terminal, and the object for JSON or the error."""
+    """What became of one block: exit status, lines for the terminal, the object for JSON or the error, a new design."""
 
     status: int
     lines: list[str] = field(default_factory=list)
     result: dict[str, Any] = field(default_factory=dict)
     error: str = ""
+    designed: dict[str, Any] = field(default_factory=dict)
 
 
 def export_all(
-    path: Path, blocks: list[Block], out: Path, options: Options, steps: int, fmu: bool, cached: bool, jobs: int
+    path: Path, blocks: list[Block], out: Path, options: Options, redesign: bool, how: dict[str, Any], jobs: int
 ) -> list[Outcome]:
     """Export blocks of a model file, some at a time, and return what became of each, in their order.
 
@@ -41,16 +42,16 @@ def export_all(
         Folder of the blocks' folders.
     options : Options
         The choices.
-    steps : int
-        Length of the nominal trace.
-    fmu, cached : bool
-        See `codegen.package.export`.
+    redesign : bool
+        Whether designed numbers are designed anew; what is to be written of them is in the outcomes.
+    how : dict
+        More for `codegen.package.export`: steps, fmu, cached, force.
     jobs : int
         Processes at a time.
     """
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(min(jobs, len(blocks)), mp_context=context) as pool:
-        waiting = [pool.submit(_export_one, path, block.name, out, options, steps, fmu, cached) for block in blocks]
+        waiting = [pool.submit(_export_one, path, block.name, out, options, redesign, how) for block in blocks]
         return [_outcome(item) for item in waiting]
 
 
@@ -61,15 +62,16 @@ def _outcome(future: Future[Outcome]) -> Outcome:
         return Outcome(2, error=sentence(error))
 
 
-def _export_one(path: Path, name: str, out: Path, options: Options, steps: int, fmu: bool, cached: bool) -> Outcome:
+def _export_one(path: Path, name: str, out: Path, options: Options, redesign: bool, how: dict[str, Any]) -> Outcome:
     """Run in a process of its own: load the model, export one block."""
     started = time.perf_counter()
     try:
         given = next(block for block in models.blocks_of(str(path))[0] if block.name == name)
-        block, _ = with_design(given, path.parent / "design.json", write=False)
-        done = export(block, out, options=options, steps=steps, fmu=fmu, cached=cached)
+        block, designed = with_design(given, path.parent / "design.json", redesign=redesign, write=False)
+        done = export(block, out, options=options, **how)
     except ExportError as error:
         return Outcome(1, error=str(error))
-    except Exception as error:
+    except BaseException as error:  # the user's own code runs here, and may raise anything
         return Outcome(2, error=sentence(error))
-    return Outcome(0, evidence_text(done, time.perf_counter() - started), export_json(done))
+    lines = evidence_text(done, time.perf_counter() - started)
+    return Outcome(0, lines, export_json(done), designed={} if designed is None else {block.name: designed})

@@ -38,7 +38,7 @@ def main() -> None:
         if name not in targets:
             print(f"not measured on {name}: its compiler or emulator is not installed")
     for block, precision in EXAMPLES:
-        done = export(block, folder, options=Options(Precision(precision), targets, tables=True))
+        done = export(block, folder, options=Options(Precision(precision), targets, tables=True), force=True)
         print(f"{done.folder}: {len(done.files)} files, model {block.model_hash()}")
 
 

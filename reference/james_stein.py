@@ -249,20 +249,15 @@ class _Call:
         z = np.asarray(inputs[sensor.name], dtype=self.precision).ravel()
         u = stack_inputs(self.model, inputs, self.precision)
         root = self.noise_root(sensor, reading, x, z, u)
-        total, innovation, least = np.zeros(len(x)), None, np.inf
+        total, innovation = np.zeros(len(x)), None
         for _ in range(reading.iterations):
             residual = self.residual(sensor, retract(self.model, x, total.astype(self.precision)), z, u)
             innovation = residual if innovation is None else innovation
-            whitened = np.linalg.solve(root, self.derivative(sensor, x + total.astype(self.precision), u))
-            least = min(least, _least_pivot(whitened))
-            if not self.usable(reading, whitened, least):
-                raise Refused(Status.NOT_POSITIVE)
+            whitened = self.whitened(sensor, reading, root, x + total.astype(self.precision), u)
             step = np.linalg.solve(root, residual.astype(float))
             total = total + np.linalg.pinv(whitened, rcond=1e-13) @ step
         if reading.iterations > 1:  # weights where the state of maximum likelihood lies
-            whitened = np.linalg.solve(root, self.derivative(sensor, x + total.astype(self.precision), u))
-            if not self.usable(reading, whitened, _least_pivot(whitened)):
-                raise Refused(Status.NOT_POSITIVE)
+            whitened = self.whitened(sensor, reading, root, x + total.astype(self.precision), u)
         assert innovation is not None
         singular = np.linalg.svd(whitened, compute_uv=False)
         singular = singular[singular > 1e-13 * singular[0]]
@@ -316,6 +311,8 @@ class _Call:
         else:
             shape = measurement_noise(sensor, x, z, u, self.p, self.noises)[0] / self.precision(reading.std**2)
         shape = shape.astype(float)
+        if not np.all(np.isfinite(shape)):
+            raise Refused(Status.OVERFLOW if np.any(np.isnan(shape)) else Status.NOT_POSITIVE)
         try:
             root = np.linalg.cholesky(shape)
         except np.linalg.LinAlgError:
@@ -324,9 +321,14 @@ class _Call:
             raise Refused(Status.NOT_POSITIVE)
         return root
 
-    def usable(self, reading: Reading, whitened: Array, least: float) -> bool:
-        """Whether the weights may be computed: nothing is judged of constant ones."""
-        return reading.constant or bool(np.all(np.isfinite(whitened)) and least >= LEAST_PIVOT)
+    def whitened(self, sensor: SensorModel, reading: Reading, root: Array, x: Array, u: Array) -> Array:
+        """Return Pi^-1 C; refuse one whose columns depend on each other, unless it is constant."""
+        answer = np.linalg.solve(root, self.derivative(sensor, x, u))
+        if not np.all(np.isfinite(answer)):
+            raise Refused(Status.OVERFLOW)
+        if not (reading.constant or _least_pivot(answer) >= LEAST_PIVOT):
+            raise Refused(Status.NOT_POSITIVE)
+        return answer
 
     def judged(self, x: Array) -> Array:
         """Refuse a state outside its range."""
@@ -349,7 +351,7 @@ class _Call:
 
 def _least_pivot(matrix: Array) -> float:
     """Return the least squared part of a column that is its own, relative to the column (of length 1e-15 at least)."""
-    if not np.all(np.isfinite(matrix)) or len(matrix) < matrix.shape[1]:
+    if len(matrix) < matrix.shape[1]:
         return 0.0
     own = np.diag(np.linalg.qr(matrix, mode="r")) ** 2
     return float(np.min(own / np.maximum(np.sum(matrix**2, axis=0), SMALLEST_SQUARE)))

@@ -65,7 +65,7 @@ def on_cluster(address: str, work: Work, starts: Mapping[int, Any]) -> Done:
 
 def _results(client: Any, distributed: Any, work: Work, starts: Mapping[int, Any]) -> Done:
     packed = zlib.compress(pickle.dumps(work))
-    workers = max(1, len(client.scheduler_info(n_workers=-1)["workers"]))
+    workers = max(1, len(client.nthreads()))
     size = max(1, min(10, len(starts) // (8 * workers)))
     runs = list(starts)
     shares = [runs[at : at + size] for at in range(0, len(runs), size)]
@@ -74,7 +74,7 @@ def _results(client: Any, distributed: Any, work: Work, starts: Mapping[int, Any
         for share in shares
     ]
     try:
-        for future in distributed.as_completed(futures):
+        for future in distributed.as_completed(futures, loop=client.loop):
             try:
                 rows = future.result()
             except distributed.scheduler.KilledWorker:

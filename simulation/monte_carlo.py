@@ -11,6 +11,7 @@ from collections.abc import Callable, Generator, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from threading import Lock
 from typing import Any
@@ -204,7 +205,7 @@ def monte_carlo(
     begin = start or Start()
     work = _work(loop, steps, seed, std, covariance, params, limits)
     result = _so_far(_header(loop, work, runs, begin), file)
-    starts = {run: _start_of(loop, begin, seed, run) for run in result.missing}
+    starts = {run: _start_of(loop, begin, seed, run, work.params) for run in result.missing}
     with _shown(loop.block, progress) as report, _Writer(result, file) as writer:
         report(runs - len(starts), runs)
         if on is None:
@@ -293,7 +294,9 @@ def _header(loop: ClosedLoop, work: Work, runs: int, start: Start) -> dict[str, 
     }
 
 
-def _start_of(loop: ClosedLoop, start: Start, seed: int, run: int) -> dict[str, Array]:
+def _start_of(
+    loop: ClosedLoop, start: Start, seed: int, run: int, given: Mapping[str, Any] | None = None
+) -> dict[str, Array]:
     """Return the parameters of a run's start."""
     states, point = loop.layout.states, np.array(loop.layout.point)
     widths = _widths(states, start.deviation)
@@ -301,7 +304,7 @@ def _start_of(loop: ClosedLoop, start: Start, seed: int, run: int) -> dict[str, 
     params = loop.truth_parameters(x)
     if start.known:
         params |= loop.estimate_parameters(x)
-        params |= loop.command_parameters(first_command(loop, x))
+        params |= loop.command_parameters(first_command(loop, x, given))
     return params
 
 
@@ -336,8 +339,17 @@ def _moved(states: tuple[StatePlace, ...], x: Array, error: Array) -> Array:
     return np.concatenate(pieces)
 
 
-def first_command(loop: ClosedLoop, x: Array) -> Array:
+def first_command(loop: ClosedLoop, x: Array, params: Mapping[str, Any] | None = None) -> Array:
     """Return what the controller commands for an estimate x: the output of its part that maps states to commands.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+        The loop.
+    x : array (n,)
+        The estimate.
+    params : dict, optional
+        Dotted parameter of the loop -> value, where it is not the default.
 
     Raises
     ------
@@ -347,17 +359,26 @@ def first_command(loop: ClosedLoop, x: Array) -> Array:
     plant = loop.point.plant
     states = [state.signal.name for state in plant.states]
     commands = [symbol.signal.name for symbol in plant.inputs]
-    for part in (*loop.controller.parts.values(), loop.controller):
+    parts = {f"controller.{name}.": part for name, part in loop.controller.parts.items()}
+    for prefix, part in {**parts, "controller.": loop.controller}.items():
         entry = part.entries["step"]
         if {s.name for s in entry.inputs} == set(states) and {s.name for s in entry.outputs} >= set(commands):
-            view = NativeView(part)
+            view = _view_of(part)
+            own = {key.removeprefix(prefix): value for key, value in (params or {}).items() if key.startswith(prefix)}
+            given = view.params(**{key.replace(".", "__"): value for key, value in own.items()})
             inputs = view.inputs("step", dict(zip(states, loop.pieces(x), strict=True)))
-            answer = view.call("step", view.init(), inputs, view.params())
+            answer = view.call("step", view.init(given), inputs, given)
             return np.concatenate([np.zeros(0), *[np.ravel(answer.outputs[name]) for name in commands]])
     raise ModelError(
         f"{loop.controller.name}: no part of it takes every state and gives every command, so that the first command for a known "
         "start is not known; start with known=False"
     )
+
+
+@lru_cache(maxsize=16)
+def _view_of(part: Block) -> NativeView:
+    """Return the compiled part; it is emitted once for all runs."""
+    return NativeView(part)
 
 
 def _so_far(header: dict[str, Any], file: Path | str | None) -> Result:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol
 
 import casadi as ca
 import numpy as np
@@ -94,7 +94,7 @@ class Design:
 
 @dataclass(frozen=True)
 class _Held:
-    """Outputs before they are held at their limits, and the statements that say so."""
+    """Locals by name (outputs before they are held at their limits, limits), and the statements that say so."""
 
     free: dict[str, ca.SX]
     statements: list[Statement]
@@ -272,8 +272,9 @@ class Block:
         output_docs : dict, optional
             Output name -> its meaning.
         limits : dict, optional
-            Output name -> (low, high), each a number (or one for each element) or a parameter: the output is held
-            between them, and where that changes it the status is CLAMPED. What is not a number is refused (OVERFLOW).
+            Output name -> (low, high), each a number (or one for each element), a parameter or an expression: the
+            output is held between them, and where that changes it the status is CLAMPED. What is not a number is
+            refused (OVERFLOW).
         guards : sequence of (expression, Status)
             Where an expression is zero (false), the call is refused with the (negative) status, in this order.
         doc : str
@@ -315,7 +316,7 @@ class Block:
         targets = [
             *[(place, 1) for place in guard_places],
             *[(Place("next", key), value.numel()) for key, value in update.items()],
-            *[(Place("local", f"free_{key}"), value.numel()) for key, value in held.free.items()],
+            *[(Place("local", key), value.numel()) for key, value in held.free.items()],
             *[(Place("out", key), value.numel()) for key, value in answers.items()],
         ]
         names = tuple(tuple(f"{place.name}_{i}" for i in range(size)) for place, size in targets)
@@ -370,10 +371,9 @@ class Block:
         def lines(key: str, texts: list[str]) -> list[str]:
             return [f"{key}{'' if len(texts) == 1 else f'[{i}]'} = {text}" for i, text in enumerate(texts)]
 
-        freed = {f"free_{key}": value for key, value in free.items()}
-        answer = [lines(key, equation_text(value, pairs)) for key, value in (*update.items(), *freed.items())]
+        answer = [lines(key, equation_text(value, pairs)) for key, value in (*update.items(), *free.items())]
         for key, value in answers.items():
-            if key in free:
+            if f"free_{key}" in free:
                 size = value.numel()
                 answer.append(lines(key, [f"free_{key}{f'[{k}]' if size > 1 else ''}, held" for k in range(size)]))
             else:
@@ -389,30 +389,38 @@ class Block:
                 raise ModelError(f"{self.name}: limits= names {key!r}, which is not an output; it has {list(answers)}")
             size = answers[key].numel()
             place = Place("local", f"free_{key}")
-            low, high = (self._limit(key, end, size) for end in ends)
-            free[key] = answers[key]
-            bottom, top = (ca.vertcat(*[expression for expression, _ in side]) for side in (low, high))
-            answers[key] = ca.fmin(ca.fmax(free[key], bottom), top)
-            beyond = [Compare(Element(place, k), "<", operand) for k, (_, operand) in enumerate(low)]
-            beyond += [Compare(Element(place, k), ">", operand) for k, (_, operand) in enumerate(high)]
-            statements.append(Refuse(Status.OVERFLOW, Within(place, (-FREE,) * size, (FREE,) * size)))
-            statements.append(When(AnyOf(tuple(beyond)), (Raise(Status.CLAMPED),), (), f"{key} was held at a limit"))
+            free[place.name] = answers[key]
+            sides = []
+            relations: tuple[Literal["<", ">"], ...] = ("<", ">")
+            for word, relation, end in zip(("least", "most"), relations, ends, strict=True):
+                expression, operands = self._limit(key, f"{word}_{key}", end, size)
+                if isinstance(operands[0], Element) and operands[0].place.space == "local":
+                    free[operands[0].place.name] = expression
+                sides.append(expression)
+                beyond = [Compare(Element(place, k), relation, item) for k, item in enumerate(operands)]
+                statements.append(
+                    When(AnyOf(tuple(beyond)), (Raise(Status.CLAMPED),), (), f"{key} was held at a limit")
+                )
+            answers[key] = ca.fmin(ca.fmax(free[place.name], sides[0]), sides[1])
+            statements.insert(-2, Refuse(Status.OVERFLOW, Within(place, (-FREE,) * size, (FREE,) * size)))
         return _Held(free, statements)
 
-    def _limit(self, key: str, given: Any, size: int) -> list[tuple[ca.SX, Operand]]:
-        """Return a limit of an output, for each element as an expression and as an operand."""
-        if isinstance(given, Symbol):
-            if all(given is not symbol for symbol in self.param_symbols()) or given.signal.size not in (1, size):
-                raise ModelError(
-                    f"{self.name}: the limit {given.signal.name!r} of {key!r} is not a parameter of 1 or {size} element(s)"
-                )
-            place = self._place(given)
-            at = [0 if given.signal.size == 1 else k for k in range(size)]
-            return [(given[k], Element(place, k)) for k in at]
-        numbers = spread(given, size)
+    def _limit(self, key: str, local: str, given: Any, size: int) -> tuple[ca.SX, list[Operand]]:
+        """Return a limit of an output as an expression, and each of its elements as an operand."""
+        if isinstance(given, ca.SX):
+            if given.numel() not in (1, size):
+                raise ModelError(f"{self.name}: a limit of {key!r} has {given.numel()} elements; give 1 or {size}")
+            known = isinstance(given, Symbol) and any(given is symbol for symbol in self.param_symbols())
+            place = self._place(given) if known and isinstance(given, Symbol) else Place("local", local)
+            at = [0 if given.numel() == 1 else k for k in range(size)]
+            return ca.vertcat(*[given[k] for k in at]), [Element(place, k) for k in at]
+        try:
+            numbers = spread(given, size)
+        except (TypeError, ValueError):
+            numbers = ()
         if len(numbers) != size or not np.all(np.isfinite(numbers)):
             raise ModelError(f"{self.name}: the limit of {key!r} is {given!r}; give {size} finite number(s)")
-        return [(ca.SX(item), item) for item in numbers]
+        return ca.SX(ca.DM(list(numbers))), list(numbers)
 
     def _plain_init(self) -> Entry:
         body: list[Statement] = [
@@ -532,6 +540,19 @@ class Block:
             check_unique(
                 [(signal.name, f"the output {signal.name!r} of {entry.name}") for signal in entry.outputs], self.name
             )
+
+        check_unique(self._prefixed(), self.name)
+
+    def _prefixed(self, prefix: str = "") -> Iterator[tuple[str, str]]:
+        """Yield (name behind the block's own, what it is) of the functions and types of the generated C."""
+        where = f" of part {prefix[:-1]!r}" if prefix else ""
+        for word in ("state_t", "params_t", *(("status_t", "status_text", "model") if not prefix else ())):
+            yield f"{prefix}{word}", f"{word}{where}"
+        for name in self.entries:
+            for end in ("", "_core", "_in_t", "_out_t"):
+                yield f"{prefix}{name}{end}", f"the entry {name!r}{where}"
+        for name, part in self.parts.items():
+            yield from part._prefixed(f"{prefix}{name}_")
 
     def model_hash(self) -> str:
         """Return eight hexadecimal digits of a hash of the model: same model, same hash, on any machine."""

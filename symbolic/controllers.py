@@ -12,17 +12,41 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from ..reference.controllers import ControllerOracle, Formula, Range, StateFeedback
+from ..reference import controllers as reference
 from . import quaternions
 from .analysis import OperatingPoint
-from .block import Block, Design, Scenario
+from .block import Block, Design
+from .components import (
+    Calls,
+    Ends,
+    check_rising,
+    declare_limits,
+    ends_of,
+    finish,
+    matrix_of,
+    middle_of,
+    rounded_up,
+    seconds,
+)
 from .design import Gain
 from .errors import ModelError
+from .filters import low_pass, notch, rate_limiter, saturation
+from .linear_systems import state_space, transfer_function
 from .plant import Plant, Symbol, wrap
 from .signals import Signal
 
+__all__ = [
+    "low_pass",
+    "notch",
+    "pid",
+    "rate_limiter",
+    "saturation",
+    "state_feedback",
+    "state_space",
+    "transfer_function",
+]
+
 Array = NDArray[Any]
-Calls = Callable[[Any, int], Iterator[tuple[str, dict[str, Any]]]]
 
 LARGEST_GAIN = 1.0e6
 """Range of the elements of a gain; wider where the gain itself is."""
@@ -87,7 +111,7 @@ def state_feedback(
     where = OperatingPoint.at(plant, point)
     if not plant.inputs:
         raise ModelError(f"{name}: the plant {plant.name!r} has no input to act on; declare one with input()")
-    K = gain.rounded() if isinstance(gain, Gain) else _matrix(name, "gain", gain)
+    K = gain.rounded() if isinstance(gain, Gain) else matrix_of(name, "gain", gain)
     shape = (plant.u.numel(), plant.error_size)
     if K.shape != shape:
         raise ModelError(
@@ -115,7 +139,7 @@ def state_feedback(
         for state in plant.states
     )
     outputs = tuple((item.name, item.size, np.array(item.low), np.array(item.high)) for item in signals)
-    _finish(block, {"step": StateFeedback(kinds, outputs, saturate)}, _around(plant, where, K, saturate))
+    finish(block, {"step": reference.StateFeedback(kinds, outputs, saturate)}, _around(plant, where, K, saturate))
     if isinstance(gain, Gain):
         block.design = _design(block, gain)
     return block
@@ -227,41 +251,206 @@ def _design(block: Block, gain: Gain) -> Design:
     return Design({"gain": gain.rounded()}, gain.source(), rebuild, properties)
 
 
-# -- what they share --------------------------------------------------------------------------------------------------
+# -- PID --------------------------------------------------------------------------------------------------------------
 
 
-def _range(signal: Signal) -> Range:
-    return Range(signal.name, signal.low, signal.high)
-
-
-def _finish(
-    block: Block,
-    formulas: Mapping[str, Formula],
-    calls: Calls,
+def pid(
+    proportional: float,
+    integral: float = 0.0,
+    derivative: float = 0.0,
     *,
-    rising: tuple[tuple[str, str], ...] = (),
-    memory: Callable[[Any], dict[str, Any]] | None = None,
+    dt: float,
+    command_range: Ends,
+    filter_time: float | None = None,
+    set_point_weight: float = 1.0,
+    derivative_weight: float = 0.0,
+    tracking_time: float | None = None,
+    name: str = "pid",
+    unit: str = "",
+    command_unit: str = "",
+    range: Ends | None = None,
+    doc: str = "",
 ) -> Block:
-    """Give a block its oracle and its scenario."""
-    entries = {name: entry for name, entry in block.entries.items() if name != "init"}
-    block.oracle = ControllerOracle(
-        dict(formulas),
-        tuple(_range(signal) for signal in block.memory_signals),
-        tuple(_range(signal) for signal in block.param_signals),
-        {name: tuple(_range(signal) for signal in entry.inputs) for name, entry in entries.items()},
-        {name: tuple(_range(signal) for signal in entry.outputs) for name, entry in entries.items()},
-        rising,
+    """Return a PID controller whose integral does not wind up.
+
+    u = Kp (b r - y) + I + D, held within limits (status CLAMPED); I grows by Ki dt (r - y) + dt/Tt (u - unlimited u) and D
+    is Kd times the slope of c r - y behind a low-pass filter. Every number is a run-time parameter; gains may be negative.
+
+    Parameters
+    ----------
+    proportional, integral, derivative : float
+        Kp, Ki (per second) and Kd (seconds), in units of command per unit of the reading. With Ki = 0 there is no I.
+    dt : float
+        Seconds per step.
+    command_range : (low, high)
+        Where the command may be: also the defaults of its limits, `minimum` and `maximum`, which `init` refuses in the
+        wrong order.
+    filter_time : float, optional
+        Time constant of the filter of D, in seconds. Default: a tenth of Kd / Kp, at least dt.
+    set_point_weight, derivative_weight : float
+        b and c: how much of the set point acts on P and on D.
+    tracking_time : float, optional
+        Tt, in seconds, at least dt: how fast I yields where the command is held. Default sqrt(Ti Td) of Ti = Kp / Ki and
+        Td = Kd / Kp; without D it is Ti, without P dt.
+    name, doc : str
+        Name and meaning of the block.
+    unit, command_unit : str
+        Of set point and reading, and of the command.
+    range : (low, high), optional
+        Of set point and reading. Default -1e6 .. 1e6.
+
+    Returns
+    -------
+    Block
+        Entries `init`; `step` (inputs `set_point` and `measured`, output `command`); `track` (and `applied`), which sets
+        the memory so that the next `step` goes on from the command that somebody else applied: call it as long as that
+        is so, or after a change of gains, and nothing jumps. The first `step` has no slope to go by and takes D as zero.
+
+    Notes
+    -----
+    Astrom and Hagglund, "Advanced PID Control", 2006, section 13.4: backward difference for D, forward for I,
+    anti-windup by back-calculation (section 3.5).
+
+    Examples
+    --------
+    >>> from plantc.symbolic.controllers import pid
+    >>> heater = pid(2.0, 0.5, dt=0.1, command_range=(0, 10), unit="K", command_unit="W")
+    >>> list(heater.entries)
+    ['init', 'step', 'track']
+    """
+    step, ends = seconds(name, dt), ends_of(name, range)
+    low, high = ends_of(name, command_range)
+    block = Block(name, doc=doc or "PID controller with anti-windup")
+    r = block.input("set_point", unit=unit, range=ends)
+    y = block.input("measured", unit=unit, range=ends)
+    applied = block.input("applied", unit=command_unit, range=(low, high), doc="command that was applied in its place")
+    times = _pid_times(name, step, proportional, integral, derivative, filter_time, tracking_time)
+    kp, ki, kd, tf, b, c, tt = _pid_parameters(
+        block,
+        step,
+        (proportional, integral, derivative),
+        times,
+        (set_point_weight, derivative_weight),
+        command_unit,
+        unit,
     )
-    block.scenario = Scenario(calls, memory or (lambda rng: {}))
-    return block
+    declare_limits(block, low, high, command_unit, (low, high))
+    bottom, top = block.param_symbols()[-2:]
+    size = max(abs(ends[0]), abs(ends[1]))
+    slopes = abs(derivative) / (times[0] + step) * 2 * (1 + abs(derivative_weight))
+    reach = rounded_up(
+        100 * (max(abs(low), abs(high)) + size * (abs(proportional) * (1 + abs(set_point_weight)) + slopes))
+    )
+    I = block.memory("integral_part", unit=command_unit, range=(-reach, reach))  # noqa: E741 - the field's letter
+    D = block.memory("derivative_part", unit=command_unit, range=(-reach, reach))
+    r_before = block.memory("set_point_before", unit=unit, range=ends)
+    y_before = block.memory("measured_before", unit=unit, range=ends)
+    running = block.memory("running", range=(0, 1), doc="0 until the first step")
+    slope = tf / (tf + step) * D + kd / (tf + step) * running * (c * (r - r_before) - (y - y_before))
+    wanted = kp * (b * r - y) + I + slope
+    command = ca.fmin(ca.fmax(wanted, bottom), top)
+    integrates = ca.fabs(ki) > 0
+    total = I + (step * ki) * (r - y) + ca.if_else(integrates, (step / tt) * (command - wanted), 0)
+    before = {r_before: r, y_before: y, running: 1}
+    block.entry(
+        "step", inputs=[r, y], following={I: total, D: slope, **before}, outputs={"command": wanted},
+        output_units={"command": command_unit}, output_ranges={"command": (low, high)},
+        output_docs={"command": "keeps its last value when a call is refused"}, limits={"command": (bottom, top)},
+        doc="The command for a set point and a reading.",
+    )  # fmt: skip
+    kept = ca.fmin(ca.fmax(applied, bottom), top) - kp * (b * r - y)
+    block.entry(
+        "track", inputs=[r, y, applied], following={I: ca.if_else(integrates, kept, 0), D: 0, **before},
+        doc="Take over without a jump: the next step goes on from the command that was applied.",
+    )  # fmt: skip
+    block.sample_time = step
+    check_rising(block)
+    law = reference.Pid(step)
+    return finish(
+        block, {"step": law.step, "track": law.track}, _regulating(proportional, ends, (low, high)),
+        rising=(("minimum", "maximum"),), memory=_pid_memory(ends, (low, high)),
+    )  # fmt: skip
 
 
-def _matrix(owner: str, what: str, given: Any) -> Array:
-    """Return what a user gave as a matrix of finite numbers."""
-    try:
-        matrix = np.atleast_2d(np.asarray(given, dtype=float))
-    except (TypeError, ValueError):
-        raise ModelError(f"{owner}: {what} is {given!r}; give a matrix of numbers") from None
-    if matrix.ndim != 2 or not np.all(np.isfinite(matrix)):
-        raise ModelError(f"{owner}: {what} is no matrix of finite numbers; mend it")
-    return matrix
+def _pid_times(
+    name: str, dt: float, kp: float, ki: float, kd: float, filter_time: float | None, tracking_time: float | None
+) -> tuple[float, float]:
+    """Return (filter time, tracking time), the defaults where none is given."""
+    tf = filter_time if filter_time is not None else max(dt, 0.1 * abs(kd / kp)) if kp else dt
+    if tracking_time is not None:
+        tt = tracking_time
+    elif ki == 0 or kp == 0:
+        tt = dt
+    else:
+        ti, td = abs(kp / ki), abs(kd / kp)
+        tt = max(dt, math.sqrt(ti * td) if kd else ti)
+    for what, value, least in (("filter_time", tf, 0.0), ("tracking_time", tt, dt)):
+        if not (math.isfinite(value) and value >= least):
+            raise ModelError(f"{name}: {what} is {value:g} s; give at least {least:g} s")
+    return tf, tt
+
+
+def _pid_parameters(
+    block: Block,
+    dt: float,
+    gains: tuple[float, float, float],
+    times: tuple[float, float],
+    weights: tuple[float, float],
+    command_unit: str,
+    unit: str,
+) -> list[Symbol]:
+    """Declare gains, times and weights."""
+    per = f"{command_unit}/({unit})" if command_unit and unit else ""
+    largest = rounded_up(1e3 * max(1.0, *map(abs, gains)))
+    made = [
+        block.parameter("proportional", gains[0], unit=per, range=(-largest, largest), doc="gain of the error"),
+        block.parameter(
+            "integral", gains[1], unit=per and f"{per}/s", range=(-largest, largest), doc="gain of its integral"
+        ),
+        block.parameter(
+            "derivative", gains[2], unit=per and f"{per} s", range=(-largest, largest), doc="gain of its slope"
+        ),
+    ]
+    longest = rounded_up(1e3 * max(1.0, dt, *times))
+    made.append(block.parameter("filter_time", times[0], unit="s", range=(0, longest), doc="of the slope"))
+    made.append(block.parameter("set_point_weight", weights[0], range=(-10, 10), doc="of the set point in the error"))
+    made.append(block.parameter("derivative_weight", weights[1], range=(-10, 10), doc="of the set point in the slope"))
+    meaning = "how fast the integral yields where the command is held"
+    made.append(block.parameter("tracking_time", times[1], unit="s", range=(dt, longest), doc=meaning))
+    return made
+
+
+def _regulating(kp: float, ends: Ends, command: Ends) -> Calls:
+    """Return steps with readings about a wandering set point, at times a hand that takes over."""
+    centre, half = middle_of(ends, 10.0)
+    error = min(half, (command[1] - command[0]) / abs(kp) if kp else half)
+
+    def calls(rng: Any, steps: int) -> Iterator[tuple[str, dict[str, Any]]]:
+        yield "init", {}
+        r = e = 0.0
+        for k in range(steps):
+            r, e = (0.95 * r + 0.3 * rng.normal(), 0.9 * e + 0.4 * rng.normal())
+            wanted = centre + half * math.tanh(r)
+            given = {"set_point": wanted, "measured": float(np.clip(wanted + error * math.tanh(e), *ends))}
+            if k % 10 < 8:
+                yield "step", given
+            else:
+                yield "track", {**given, "applied": rng.uniform(*command)}
+
+    return calls
+
+
+def _pid_memory(ends: Ends, command: Ends) -> Callable[[Any], dict[str, Any]]:
+    centre, half = middle_of(ends, 10.0)
+
+    def memory(rng: Any) -> dict[str, Any]:
+        middle, span = 0.5 * (command[0] + command[1]), command[1] - command[0]
+        return {
+            "integral_part": middle + span * rng.uniform(-1, 1),
+            "derivative_part": 0.1 * span * rng.uniform(-1, 1),
+            "set_point_before": centre + half * rng.uniform(-1, 1),
+            "measured_before": centre + half * rng.uniform(-1, 1),
+            "running": float(rng.integers(2)),
+        }
+
+    return memory

@@ -586,7 +586,7 @@ def _weight(system: _System, what: str, given: Any, labels: tuple[str, ...]) -> 
         raise ModelError(f"{system.name}: {what} has shape {matrix.shape}; give {size} numbers, or {size} x {size}")
     if not np.all(np.isfinite(matrix)) or not np.allclose(matrix, matrix.T, rtol=1e-9, atol=0):
         raise ModelError(f"{system.name}: {what} is not a symmetric matrix of finite numbers; mend it")
-    return 0.5 * (matrix + matrix.T)
+    return np.asarray(0.5 * (matrix + matrix.T))
 
 
 def _why_not(system: _System, Q: Array) -> str:

@@ -302,7 +302,7 @@ def numpy_callable(function: ca.Function) -> Callable[..., tuple[Array, ...]]:
         lines.append(f"    t{index} = {text}")
     results = ", ".join("(" + "".join(f"t{item}, " for item in output) + ")" for output in record.outputs)
     lines.append(f"    return ({results},)")
-    space: dict[str, Any] = dict(_NUMPY)
+    space: dict[str, Any] = {**_NUMPY, "__name__": __name__}
     exec(compile("\n".join(lines), f"<{function.name()} in NumPy>", "exec"), space)
     lowered = space["lowered"]
     shapes = [function.size_out(index) for index in range(function.n_out())]

@@ -1,9 +1,10 @@
 """Kernels on the factors of a covariance, P = U D U': U unit upper triangular, D diagonal.
 
 The factors are packed as one upper triangle by rows: D on the diagonal, U beside it. G. J. Bierman, "Factorization methods
-for discrete sequential estimation", 1977: measurement update ch. V, time update by weighted Gram-Schmidt
-(C. L. Thornton, 1976) ch. VI. The scalar forms are those algorithms; the dense forms are array algorithms by orthogonal
-triangularisation (Kailath, Sayed, Hassibi, "Linear estimation", 2000, ch. 12), so that one checks the other.
+for discrete sequential estimation", 1977: measurement update ch. V; the time update triangularises the array of Thornton's
+(C. L. Thornton, 1976; Bierman ch. VI) by rotations. The scalar forms are those algorithms; the dense forms are array
+algorithms by orthogonal triangularisation (Kailath, Sayed, Hassibi, "Linear estimation", 2000, ch. 12), so that one checks
+the other.
 """
 
 from __future__ import annotations
@@ -78,34 +79,85 @@ def _upper_rows(size: int, packed: list[Any]) -> tuple[list[Sparse], list[Any]]:
     return rows, [packed[packed_index(size, i, i)] for i in range(size)]
 
 
-def _weighted_gram_schmidt(rows: list[Sparse], weights: dict[int, Any]) -> list[Any]:
-    """Return the packed factors of W diag(weights) W' (Bierman 1977, sec. VI.4); structural zeros are used."""
+def _triangularised(rows: list[Sparse], weights: dict[int, Any], positive: frozenset[int]) -> list[Any]:
+    """Return the packed factors of W diag(weights) W' by rotations of weighted columns; structural zeros are used.
+
+    For each row, from the last to the first, one column keeps an element in it and clears that of every other column; it
+    is then a column of U and left alone. Weighted Gram-Schmidt (Bierman 1977, sec. VI.4), which it replaces, goes on
+    working with the columns that are done: it takes twice the operations. The rotations are those of Agee and Turner
+    (Bierman 1977, sec. III.3), without square roots (W. M. Gentleman, "Least squares computations by Givens
+    transformations without square roots", 1973); what they add is not negative, so that D stays positive.
+
+    Parameters
+    ----------
+    rows : list of dict
+        W, row by row: column -> value.
+    weights : dict
+        Column -> its weight, not negative.
+    positive : frozenset of int
+        Columns whose weight is at least a floor of D: by a multiple of it may be divided.
+    """
     size = len(rows)
     answer: list[Any] = [0.0] * packed_size(size)
     for j in reversed(range(size)):
-        own = rows[j]
-        weighted = {k: value * weights[k] for k, value in own.items()}
-        total = _total([value * weighted[k] for k, value in own.items()])
-        answer[packed_index(size, j, j)] = 0.0 if total is None else total.named(f"d_{j}")
-        if total is None:
+        active = [k for k in weights if k in rows[j]]
+        answer[packed_index(size, j, j)] = 0.0
+        if not active:
             continue
-        shared = [i for i in range(j) if own.keys() & rows[i].keys()]
-        if not shared:
-            continue
-        per_total = total.reciprocal_above(SMALLEST_DIVISOR).named(f"per_d_{j}")
-        for i in shared:
-            product = _total([value * weighted[k] for k, value in rows[i].items() if k in weighted])
-            u = (product * per_total).named(f"u_{i}_{j}")
-            answer[packed_index(size, i, j)] = u
-            for k, value in own.items():
-                step = u * value
-                rows[i][k] = rows[i][k] - step if k in rows[i] else -step
+        pivot = min(active, key=lambda k: (not rows[j][k].is_const(1.0), k not in positive, abs(k - j), k))
+        certain = pivot in positive
+        if not rows[j][pivot].is_const(1.0):
+            _scaled_to_one(rows, weights, pivot, j)
+            certain = False
+        for k in active:
+            if k != pivot:
+                _cleared(rows, weights, pivot, k, j, certain)
+        answer[packed_index(size, j, j)] = weights.pop(pivot).named(f"d_{j}")
+        for i in range(j):
+            if pivot in rows[i]:
+                answer[packed_index(size, i, j)] = rows[i].pop(pivot).named(f"u_{i}_{j}")
     return answer
+
+
+def _scaled_to_one(rows: list[Sparse], weights: dict[int, Any], pivot: int, j: int) -> None:
+    """Scale a column so that its element in row j is one; one that is zero becomes a column of weight zero."""
+    element, weight = rows[j][pivot], weights[pivot]
+    weighted = weight * element
+    total = (weighted * element).named(f"scaled_d_{j}")
+    per_element = (weighted * total.reciprocal_above(SMALLEST_DIVISOR)).named(f"per_f_{j}")
+    weights[pivot] = total
+    for i in range(j):
+        if pivot in rows[i]:
+            rows[i][pivot] = rows[i][pivot] * per_element
+    rows[j][pivot] = element.graph.const(1.0)
+
+
+def _cleared(rows: list[Sparse], weights: dict[int, Any], pivot: int, other: int, j: int, certain: bool) -> None:
+    """Rotate two weighted columns so that `pivot` keeps one in row j and `other` nothing; above, both change."""
+    v = rows[j].pop(other)
+    weighted = weights[other] * v
+    total = weights[pivot] + weighted * v
+    per_total = (total.reciprocal() if certain else total.reciprocal_above(SMALLEST_DIVISOR)).named("per_t")
+    kept = (weights[pivot] * per_total).named("kept")
+    gain = (weighted * per_total).named("gain")
+    weights[pivot] = total.named("t")
+    weights[other] = (weights[other] * kept).named("w")
+    for i in range(j):
+        u, w = rows[i].get(pivot), rows[i].get(other)
+        if u is None and w is None:
+            continue
+        if u is None:
+            rows[i][other], rows[i][pivot] = -w, gain * w  # type: ignore[operator]
+            continue
+        moved = u * v if w is None else u * v - w
+        # what is left of u where nothing stood beside it: 1 - gain v, without the difference
+        rows[i][pivot] = u * kept if w is None else u - gain * moved
+        rows[i][other] = moved
 
 
 @dataclass(frozen=True)
 class FactoredCongruence(Kernel):
-    """Factors of P -> those of F P F' + Q, by weighted Gram-Schmidt; F sparse, Q given on a pattern of its upper triangle."""
+    """Factors of P -> those of F P F' + Q, by weighted rotations; F sparse, Q given on a pattern of its upper triangle."""
 
     size: int
     f: Place
@@ -116,7 +168,7 @@ class FactoredCongruence(Kernel):
     target: Place
     f_names: tuple[str, ...] = ()
     q_names: tuple[str, ...] = ()
-    comment: tuple[str, ...] = ("U D U' = F U D U' F' + Q, by weighted Gram-Schmidt",)
+    comment: tuple[str, ...] = ("U D U' = F U D U' F' + Q, by rotations of columns weighted with D and Q",)
 
     @property
     def reads(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
@@ -133,6 +185,10 @@ class FactoredCongruence(Kernel):
         """Names of the elements it reads."""
         return (self.f_names, factor_names(self.size)) + ((self.q_names,) if self.q else ())
 
+    def order(self, output: int) -> list[int]:
+        """Column by column, the last first: so U is found."""
+        return [packed_index(self.size, i, j) for j in reversed(range(self.size)) for i in [j, *range(j)]]
+
     def scalar(self, *values: list[Any]) -> list[list[Any]]:
         """Rows [F U, B] with weights [D, noise], Q = B diag(noise) B'."""
         n = self.size
@@ -148,7 +204,8 @@ class FactoredCongruence(Kernel):
                 weights[n + k] = weight
                 for i, value in column.items():
                     rows[i][n + k] = value
-        return [_weighted_gram_schmidt(rows, weights)]
+        # D in the memory is held above its floor, a candidate's is not yet
+        return [_triangularised(rows, weights, frozenset(range(n) if self.p.space == "memory" else ()))]
 
     def _noise(self, values: list[Any]) -> list[tuple[Any, Sparse]]:
         """Return (weight, column of B) for each independent noise of Q, positive semidefinite; zero where rounding is negative."""
@@ -248,6 +305,7 @@ class FactoredRowUpdate(Kernel):
         a: Any = r[self.row]
         per_a: Any = None
         gain: list[Any] = [None] * n
+        single = next(iter(terms)) if len(terms) == 1 and next(iter(terms.values())).is_const(1.0) else None
         for j in range(n):
             if f[j] is None:
                 continue
@@ -255,13 +313,16 @@ class FactoredRowUpdate(Kernel):
             before: Any = a
             per_before: Any = per_a
             a = before + f[j] * g
-            per_a = a.reciprocal_above(SMALLEST_VARIANCE).named(f"per_a_{j}")
+            # of a state measured alone a begins with r + d, and no later one is smaller
+            far = per_before is not None and single is not None
+            per_a = (a.reciprocal() if far else a.reciprocal_above(SMALLEST_VARIANCE)).named(f"per_a_{j}")
             answer[packed_index(n, j, j)] = (diagonal[j] * (before * per_a)).named(f"new_d_{j}")
-            loss: Any = None if per_before is None else (-(f[j] * per_before)).named(f"loss_{j}")
+            loss: Any = None if per_before is None else (f[j] * per_before).named(f"loss_{j}")
             for i in range(j):
                 u = upper[i][j]
                 if gain[i] is not None and loss is not None:
-                    answer[packed_index(n, i, j)] = u + gain[i] * loss
+                    # u - gain loss; in the measured row that is u r / a, which cancels nothing
+                    answer[packed_index(n, i, j)] = r[self.row] * loss if i == single else u - gain[i] * loss
                 gain[i] = _total([gain[i], u * g])
             gain[j] = g
         variance = a.named("s")

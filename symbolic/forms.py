@@ -214,11 +214,12 @@ class Factored(Conventional):
         f_names: tuple[str, ...],
         q_names: tuple[str, ...],
     ) -> list[Statement]:
-        """Thornton's time update; negative noise is refused."""
+        """Time update of the factors; negative noise is refused."""
         diagonal = [Element(q, k) for k, (i, j) in enumerate(q_pattern) if i == j]
         return [
-            Refuse(Status.NOT_POSITIVE, AllOf(tuple(Compare(item, ">=", 0.0) for item in diagonal))),
             FactoredCongruence(self.size, f, f_pattern, self.before, q, q_pattern, self.after, f_names, q_names),
+            # after it: an analyser goes through what a judgement guards once for each of its comparisons
+            Refuse(Status.NOT_POSITIVE, AllOf(tuple(Compare(item, ">=", 0.0) for item in diagonal))),
         ]
 
     def innovation_variance(self, rows: Rows, r_pattern: Pattern, r_names: tuple[str, ...]) -> Kernel:

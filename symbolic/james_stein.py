@@ -452,7 +452,10 @@ class _Builder(Derivation):
             body.append(Refuse(Status.NOT_POSITIVE, AllOf((Compare(Element(local), ">=", LEAST_PIVOT),))))
         comment, origins = self._said(made, len(outputs))
         evaluate: Evaluate = self.evaluate(f"update_{name}", reads, outputs, comment, origins)
-        body = [evaluate, *body, Refuse(Status.OVERFLOW, Within(out, (0.0,), (LARGEST,))), self.judge()]
+        # ends that a weight never comes near: only what is no number is outside
+        is_number = Within(Place("out", "weight"), (-1.0,), (2.0,))
+        finite = Refuse(Status.OVERFLOW, AllOf((Within(out, (0.0,), (LARGEST,)), is_number)))
+        body = [evaluate, *body, finite, self.judge()]
         reading = Signal(**{**sensor.signal.__dict__, "doc": sensor.doc or "reading"})
         return Entry(
             f"update_{name}",
@@ -535,7 +538,14 @@ class _Builder(Derivation):
         entries = [self._init(), predict, *updates, self._step(predict, updates)]
         block.entries = {entry.name: entry for entry in entries}
         block.equations = plant_equations(plant)
-        block.notes = [*self.notes(), "James-Stein: no covariance is kept; process noise is not used."]
+        block.notes = [*self.notes(), "No covariance is kept, and process noise is not used."]
+        for made in self.measured:
+            name = made.sensor.signal.name
+            block.notes.append(
+                f"Weights of {name}: n* = {made.weights.effective_dimension:.9g}, c = {made.weights.shrink:.9g}."
+                if made.weights is not None
+                else f"Weights of {name} are computed in each call; NOT_POSITIVE says that its rank is too low there."
+            )
         block.source_hash = plant.fingerprint()
         block.check()
         check_unique(

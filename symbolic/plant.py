@@ -740,16 +740,16 @@ class Plant:
         if dt is True:
             raise ModelError(f"{name}: the discrete system has no numeric time step; give it one (dt=0.01)")
         plant = cls(name, dt=None if dt in (0, None) else float(dt))
-        labels = [_identifier(item) for item in system.state_labels]
+        labels = [identifier(item) for item in system.state_labels]
         states = [plant.state(item) for item in labels]
-        inputs = [plant.input(_identifier(item)) for item in system.input_labels]
+        inputs = [plant.input(identifier(item)) for item in system.input_labels]
         x, u = ca.vertcat(*states), ca.vertcat(ca.SX(0, 1), *inputs)
         rates = _sparse(system.A) @ x + _sparse(system.B) @ u
         plant.dynamics({state: rates[index] for index, state in enumerate(states)})
         if variance is not None:
             outputs = _sparse(system.C) @ x + _sparse(system.D) @ u
             for index, label in enumerate(system.output_labels):
-                output = _identifier(label)
+                output = identifier(label)
                 if isinstance(variance, Mapping):
                     given = variance[label]
                 else:
@@ -940,7 +940,7 @@ def _sparse(matrix: Any) -> ca.SX:
     return ca.SX(ca.sparsify(ca.DM(np.asarray(matrix, dtype=float))))
 
 
-def _identifier(label: str) -> str:
+def identifier(label: str) -> str:
     """Return a signal label of python-control as a C identifier."""
     cleaned = "".join(letter if letter.isalnum() else "_" for letter in label).strip("_")
     while "__" in cleaned:

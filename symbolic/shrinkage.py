@@ -313,6 +313,11 @@ class Reduced:
         return 1 / largest_eigenvalue([[item / trace for item in row] for row in product])
 
 
+def _at_least(value: ca.SX, limit: float) -> ca.SX:
+    """Return the larger of a value and a limit; NaN stays, so that the result is refused."""
+    return ca.if_else(value < limit, limit, value)
+
+
 def whitened(root: list[list[ca.SX]], right: ca.SX) -> ca.SX:
     """Return root^-1 right for a lower triangular root."""
     rows: list[ca.SX] = []
@@ -341,7 +346,7 @@ def cholesky(matrix: ca.SX) -> tuple[list[list[ca.SX]], ca.SX]:
             else:
                 value = ca.SX(value)
                 least = value if least is None else ca.fmin(least, value)
-                factor[i][i] = ca.sqrt(ca.fmax(value, SMALLEST_SQUARE))
+                factor[i][i] = ca.sqrt(_at_least(value, SMALLEST_SQUARE))
     assert least is not None
     return factor, least
 
@@ -358,9 +363,9 @@ def reduced(matrix: ca.SX, residual: ca.SX) -> Reduced:
     for j in range(n):
         whole = ca.sumsqr(matrix[:, j])
         own = ca.sumsqr(columns[j])
-        share = own / ca.fmax(whole, SMALLEST_SQUARE)
+        share = own / _at_least(whole, SMALLEST_SQUARE)
         pivot = share if pivot is None else ca.fmin(pivot, share)
-        length = ca.sqrt(ca.fmax(own, SMALLEST_SQUARE))
+        length = ca.sqrt(_at_least(own, SMALLEST_SQUARE))
         direction = columns[j] / length
         R[j][j] = length
         for k in range(j + 1, n):

@@ -85,3 +85,26 @@ def test_the_page_shows_what_was_measured(conditioning):
         assert int(lost) == row["steps_lost"]
         assert float(error_x) == pytest.approx(row["worst_x"], rel=0.1)
         assert float(error_p) == pytest.approx(row["worst_p"], rel=0.1)
+
+
+@pytest.mark.slow
+def test_factors_cost_less_than_twice_the_default_form(figures):  # `figures` sees that the tools are there
+    done = subprocess.run(
+        [sys.executable, str(ROOT / "benchmarks" / "forms.py"), "--json"], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    forms = json.loads(done.stdout)
+    # 1.5 was the goal; measured 1.69
+    assert forms["ud"]["step"] <= 1.75 * forms["conventional"]["step"]
+    assert forms["ud"]["step"] < forms["joseph"]["step"]
+
+
+@pytest.mark.slow
+def test_the_closed_loop_benchmark_runs_both_ways_to_the_same_states(needs_gcc):
+    script = ROOT / "benchmarks" / "closed_loop.py"
+    done = subprocess.run([sys.executable, str(script), "--json"], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    figures = json.loads(done.stdout)
+    assert figures["largest_difference"] < 1e-9
+    rates = figures["steps_per_second_compiled"], figures["steps_per_second_numpy"]
+    assert figures["ratio"] == pytest.approx(rates[0] / rates[1])

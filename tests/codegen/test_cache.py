@@ -1,13 +1,16 @@
 """The cache of exports: the same again does no work; whatever could change the answer is another key."""
 
+import copy
 import dataclasses
+import os
 
 import pytest
 from plantc.codegen import cache, emit, export, package
+from plantc.codegen.fingerprint import fingerprint
 from plantc.codegen.options import Options
 from plantc.codegen.style import Precision
 from plantc.examples.pendulum import pendulum_ekf
-from plantc.symbolic import Block
+from plantc.symbolic import Block, Scenario
 
 OPTIONS = Options(Precision("float"))
 STEPS = 20
@@ -65,29 +68,120 @@ def test_whatever_could_change_the_answer_is_another_key(monkeypatch):
 
 @pytest.mark.parametrize("damage", ["", "{", "[]", '{"files": {}, "results": [], "statuses": {}, "evidence": {}}'])
 def test_an_entry_that_cannot_be_read_is_no_entry(own_cache, damage):
+    text = emit(pendulum_ekf, "float")
     cache._place("damaged").write_text(damage)
-    assert cache.kept("damaged") is None
-    assert cache.kept("absent") is None
+    assert cache.kept("damaged", pendulum_ekf, text) is None
+    assert cache.kept("absent", pendulum_ekf, text) is None
 
 
-def test_an_entry_that_tells_of_a_failed_check_is_no_entry(first):
-    key = cache.key_of(pendulum_ekf, emit(pendulum_ekf, "float"), OPTIONS, STEPS)
-    whole = cache.kept(key)
-    assert whole is not None
-    whole.results[0].passed = False
-    cache.keep("failed", whole)
-    assert cache.kept("failed") is None
+def spoilt(kept, file, old, new):
+    """Change a kept file, and the digest of the entry with it."""
+    assert old in kept.files[file]
+    kept.files[file] = kept.files[file].replace(old, new, 1)
 
 
-def test_a_block_with_an_oracle_of_the_users_own_is_never_kept():
+def test_c_that_nobody_checked_is_never_handed_out(first):
+    text = emit(pendulum_ekf, "float")
+    key = cache.key_of(pendulum_ekf, text, OPTIONS, STEPS)
+
+    def kept():
+        answer = cache.kept(key, pendulum_ekf, text)
+        assert answer is not None
+        return answer
+
+    kept().results[0].passed = False  # a copy: what is kept stays
+    damages = [
+        lambda whole: spoilt(whole, "src/pendulum_ekf.c", " + ", " - "),
+        lambda whole: spoilt(whole, "src/pendulum_ekf.h", "F", "G"),
+        lambda whole: spoilt(whole, "CMakeLists.txt", "off", "fast"),
+        lambda whole: spoilt(whole, "manifest.json", pendulum_ekf.model_hash(), "00000000"),
+        lambda whole: whole.files.pop("test/test_vectors.c"),
+        lambda whole: whole.files.update({"src/more.c": "int more;"}),
+        lambda whole: setattr(whole.results[0], "passed", False),
+    ]
+    for damage in damages:
+        whole = kept()
+        damage(whole)
+        cache.keep("spoilt", whole)
+        assert cache.kept("spoilt", pendulum_ekf, text) is None
+    place = cache._place(key)
+    before = place.read_text()
+    place.write_text(before.replace('"passed": true', '"passed": true ', 1).replace("evidence", "evidense", 1))
+    assert cache.kept(key, pendulum_ekf, text) is None
+    place.write_text(before)
+    kept()
+
+
+# -- what tells two exports apart --------------------------------------------------------------------------------------
+
+
+def gain():
+    block = Block("gain")
+    u = block.input("u")
+    block.entry("step", inputs=[u], outputs={"y": 2 * u})
+    return block
+
+
+def test_everything_that_a_block_is_checked_by_is_in_its_fingerprint():
+    def changed(**what):
+        block = copy.copy(pendulum_ekf)
+        vars(block).update(what)
+        return fingerprint(block)
+
+    plain, scenario = changed(), pendulum_ekf.scenario
+    assert plain == changed()
+    others = [
+        changed(float_bound=0.5),
+        changed(scenario=None),
+        changed(scenario=dataclasses.replace(scenario, gaps="torque")),
+        changed(scenario=dataclasses.replace(scenario, scales=None)),
+        changed(derivative_checks=[]),
+        changed(oracle=None),
+    ]
+    assert None not in (plain, *others)
+    assert len({plain, *others}) == 7
+
+
+def test_code_of_the_users_own_is_never_kept(monkeypatch):
     class Oracle:
         def call(self, *given):
             raise NotImplementedError
 
-    block = Block("gain")
-    u = block.input("u")
-    block.entry("step", inputs=[u], outputs={"y": 2 * u})
-    assert cache.is_cacheable(block)
-    block.oracle = Oracle()
-    assert not cache.is_cacheable(block)
-    assert cache.is_cacheable(pendulum_ekf)
+    def calls(rng, steps):
+        yield "step", {"u": 0.0}
+
+    text = emit(gain(), "double")
+    for name, value in (("oracle", Oracle()), ("scenario", Scenario(calls, lambda rng: {}))):
+        block = gain()
+        assert cache.key_of(block, text, OPTIONS, STEPS)
+        setattr(block, name, value)
+        assert cache.key_of(block, text, OPTIONS, STEPS) == ""
+
+
+def test_another_compiler_behind_the_same_command_is_another_key(tmp_path, monkeypatch):
+    text = emit(gain(), "double")
+    wrapper = tmp_path / "mycc"
+    keys = []
+    for version in ("1", "2"):
+        wrapper.write_text(f"#!/bin/sh\necho compiler {version}\n")
+        wrapper.chmod(0o755)
+        os.utime(wrapper, (0, 0))
+        monkeypatch.setenv("CC", str(wrapper))
+        keys.append(cache.key_of(gain(), text, OPTIONS, STEPS))
+    monkeypatch.setattr(cache.importlib.metadata, "version", lambda name: "another")
+    keys.append(cache.key_of(gain(), text, OPTIONS, STEPS))
+    assert len(set(keys)) == 3
+
+
+def test_another_c_library_of_a_target_is_another_key(tmp_path, monkeypatch):
+    """A cross compiler of the same version that would link another libm."""
+    compiler, library = tmp_path / "arm-none-eabi-gcc", tmp_path / "libm.a"
+    compiler.write_text(f'#!/bin/sh\ncase "$*" in *verbose) echo attempt to open {library} succeeded;; esac\n')
+    compiler.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+    text, options = emit(gain(), "double"), dataclasses.replace(OPTIONS, targets=("cortex-m4",))
+    keys = []
+    for content in ("newlib 4.1", "newlib 4.10"):
+        library.write_text(content)
+        keys.append(cache.key_of(gain(), text, options, STEPS))
+    assert keys[0] != keys[1]

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from plantc.codegen.bounds import Unknown
-from plantc.codegen.costs import QUANTITIES, Cost, read, reasons, within, written
+from plantc.codegen.costs import QUANTITIES, Cost, deepest, read, reasons, within, written
 
 COSTS = {"step": Cost.of(900, 1000), "init": Cost.of(12, Unknown("a loop in f")), "inflate": Cost.of(3, 3)}
 UNSEEN = {"step": Cost("not counted: no emulator", 1000), "init": Cost("not counted: no emulator", "unknown")}
@@ -58,3 +58,9 @@ def test_only_one_module_knows_the_keys(checkout):
         and ("instruction_bound" in (text := path.read_text()) or 'stack_bound"' in text)
     ]
     assert set(users) <= {"costs.py", "report.py", "report.html.j2"}
+
+
+def test_what_is_needed_is_the_bound_not_what_was_seen():
+    assert deepest({"step": Cost(184, 192), "init": Cost(8, 8)}) == 192
+    assert deepest({"step": Cost(184, "unknown because of a loop"), "init": Cost(8, 16)}) == 184
+    assert deepest({"step": Cost("not painted", "unknown")}) == 0

@@ -1,13 +1,14 @@
 """The FMI unit: what it describes, and that it gives the bits of the direct call."""
 
 import io
+import re
 import subprocess
 import sys
 import zipfile
 
 import numpy as np
 import pytest
-from plantc.codegen import fmu
+from plantc.codegen import emit, fmu
 from plantc.codegen.fmu import FmuError, FmuRunner, build_fmu, check_fmu
 from plantc.codegen.layout import flatten
 from plantc.codegen.options import Options
@@ -101,16 +102,62 @@ def test_a_refused_step_leaves_the_state_and_the_simulation_goes_on(runner, nati
     assert np.array_equal(runner.values("state."), memory_of(wanted.memory))
 
 
-def test_a_parameter_out_of_range_is_refused_until_it_is_mended(runner):
+def test_a_parameter_out_of_range_is_not_taken_and_the_old_one_stays(runner):
     runner.start()
     runner.set_inputs(READING)
-    mass = [runner.references["params.mass"]]
-    before = runner.values("state.")
-    runner.slave.setReal(mass, [-1.0])
-    assert runner.step(0.0, 0.01) == -2
-    assert np.array_equal(runner.values("state."), before)
-    runner.slave.setReal(mass, [0.3])
+    mass, length = runner.references["params.mass"], runner.references["params.length"]
+    for bad in (-1.0, float("nan"), 1e300):
+        with pytest.raises(Exception, match="fmi2SetReal"):
+            runner.slave.setReal([length, mass], [0.7, bad])
+    assert runner.slave.getReal([mass, length]) == [float(np.float32(0.2)), 0.5]
     assert runner.step(0.0, 0.01) == 0
+    runner.slave.setReal([mass], [0.3])
+    assert runner.step(0.01, 0.01) == 0
+
+
+def test_a_parameter_that_only_starts_the_state_is_fixed(runner, unit):
+    text = zipfile.ZipFile(io.BytesIO(unit)).read("modelDescription.xml").decode()
+    for name, variability in (("params.theta_0", "fixed"), ("params.mass", "tunable"), ("in.torque", "discrete")):
+        assert re.search(rf'name="{name}"[^>]*variability="{variability}"', text)
+    start = [runner.references["params.theta_0"]]
+    runner.slave.setReal(start, [0.5])
+    runner.start()
+    assert runner.slave.getReal([runner.references["state.theta"]]) == [0.5]
+    with pytest.raises(Exception, match="fmi2SetReal"):
+        runner.slave.setReal(start, [0.25])
+    assert runner.slave.getReal(start) == [0.5]
+
+
+def test_nothing_is_set_after_the_end(runner):
+    runner.start()
+    torque, flag = [runner.references["in.torque"]], [runner.references["in.has_encoder"]]
+    runner.slave.terminate()
+    with pytest.raises(Exception, match="fmi2SetReal"):
+        runner.slave.setReal(torque, [1.0])
+    with pytest.raises(Exception, match="fmi2SetBoolean"):
+        runner.slave.setBoolean(flag, [True])
+    assert runner.slave.getReal(torque) == [0.0]
+
+
+def test_where_the_time_step_is_not_known_all_steps_have_the_size_of_the_first(tmp_path, needs):
+    needs("python:fmpy")
+    block = Block("counter")
+    count = block.memory("count", range=(0, 100))
+    block.entry("step", following={count: count + 1})
+    path = tmp_path / "counter.fmu"
+    path.write_bytes(build_fmu(block, DOUBLE, emit(block)))
+    assert b'canHandleVariableCommunicationStepSize="false"' in zipfile.ZipFile(path).read("modelDescription.xml")
+    made = FmuRunner(block, path)
+    made.start()
+    made.step(0.0, 0.5)
+    made.step(0.5, 0.5 * (1 + 1e-9))
+    with pytest.raises(Exception, match="fmi2DoStep"):
+        made.step(1.0, 0.25)
+    assert made.values("state.").tolist() == [2.0]
+    made.slave.reset()
+    made.start()
+    made.step(0.0, 0.25)
+    made.close()
 
 
 def test_a_saved_state_replays_the_same_also_as_bytes(runner):

@@ -1,5 +1,6 @@
 """Whose a folder is, and that it is replaced whole or not at all."""
 
+import hashlib
 import json
 import os
 
@@ -16,7 +17,8 @@ def package(version, **more):
         "CMakeLists.txt": f"build {version}",
         **more,
     }
-    manifest = {"name": "x", "model": version, "precision": "double", "files": dict.fromkeys(files, "")}
+    hashes = {file: hashlib.sha256(text.encode()).hexdigest() for file, text in files.items()}
+    manifest = {"name": "x", "model": version, "precision": "double", "generator": "plantc 1", "files": hashes}
     return {**files, "manifest.json": json.dumps(manifest), "evidence.json": f"{{}} {version}"}
 
 
@@ -110,7 +112,43 @@ def test_a_folder_that_holds_someone_elses_files(tmp_path):
     before = contents(folder)
     with pytest.raises(FolderError, match="no manifest of an export; move them, or give another --out"):
         check_folder_is_free(folder)
+    (folder / "data.csv").write_text("mine")  # someone's own manifest has these words too
+    own = {"name": "page", "model": "T", "precision": "high", "files": {"data.csv": ""}}
+    for manifest in (own, {**own, "generator": "a web page"}, {**own, "generator": "plantc 1"}):
+        (folder / "manifest.json").write_text(json.dumps(manifest))
+        with pytest.raises(FolderError, match="no manifest of an export; move them, or give another --out"):
+            write_folder(folder, package("2"), force=True)
+    assert contents(folder) == {**before, "manifest.json": json.dumps(manifest), "data.csv": "mine"}
+
+
+@pytest.mark.parametrize("file", ["src/x.c", "test/old.c"])
+def test_a_file_that_was_changed_by_hand_is_the_users(tmp_path, file):
+    folder = tmp_path / "x"
+    write_folder(folder, package("1", **{"test/old.c": "goes"}))
+    (folder / "src/x.h").write_bytes(b"header 1\r\n".rstrip())  # its line ends are nobody's change
+    (folder / file).write_text("mine")
+    (folder / "CMakeLists.txt").unlink()  # nor is a file that is gone
+    before = contents(folder)
+    with pytest.raises(FolderError, match=rf"x/{file}: it was changed since plantc wrote it; .* --force"):
+        write_folder(folder, package("2"))
     assert contents(folder) == before
+    write_folder(folder, package("2"), force=True)
+    assert contents(folder) == package("2")
+
+
+@pytest.mark.parametrize("exists", [True, False])
+def test_nothing_is_written_through_a_link(tmp_path, exists):
+    folder, outside = tmp_path / "x", tmp_path / "outside"
+    write_folder(folder, package("1"))
+    outside.mkdir()
+    for file in ("x.c", "x.h"):
+        os.rename(folder / "src" / file, outside / file)
+    (folder / "src").rmdir()
+    (folder / "src").symlink_to(outside if exists else tmp_path / "nowhere")
+    with pytest.raises(FolderError, match="x/src: it is a link, so the C would be written outside"):
+        write_folder(folder, package("2"))
+    assert (outside / "x.c").read_text() == "source 1"
+    assert not (tmp_path / "nowhere").exists()
 
 
 @pytest.mark.parametrize("file", ["library.json", "zephyr"])
@@ -157,7 +195,7 @@ def test_a_manifest_never_names_files_outside(tmp_path):
     files = package("1")
     write_folder(folder, files)
     for path in ("../victim", "/etc/passwd", "a/../../victim", ""):
-        manifest = {**json.loads(files["manifest.json"]), "files": {path: ""}}
+        manifest = {**json.loads(files["manifest.json"]), "files": {path: "0" * 64}}
         (folder / "manifest.json").write_text(json.dumps(manifest))
         with pytest.raises(FolderError, match="not a manifest of plantc"):
             read_manifest(folder)

@@ -8,7 +8,15 @@ from plantc.codegen.bounds import source_loops
 from plantc.codegen.compiler import BASE_FLAGS, Compiler
 from plantc.codegen.crosscheck import CrossCheck
 from plantc.codegen.emit import emit
-from plantc.codegen.gates import allowed_symbols, header_gate, loops_gate, object_gates, warnings_gate
+from plantc.codegen.gates import (
+    addresses_gate,
+    allowed_symbols,
+    build_plain,
+    header_gate,
+    loops_gate,
+    object_gates,
+    warnings_gate,
+)
 from plantc.codegen.host_gates import equal_bits_gate, measure_gates
 from plantc.codegen.objects import read_image
 from plantc.codegen.options import Options
@@ -20,6 +28,7 @@ from plantc.examples.quadrotor_ekf import quadrotor_kf
 
 MACHINES = ("host", "cortex-m4", "cortex-m7", "rv32")
 PREFIX = "pendulum_ekf"
+COUNT = next(item.name for item in pendulum_ekf.memory_signals_flat() if item.kind.value == "count")
 HEAD = f"{PREFIX}_status_t {PREFIX}_predict({PREFIX}_state_t *state"
 
 
@@ -32,19 +41,23 @@ def planted(text, declarations, statement):
     return replace(text, source=changed)
 
 
-def found_in(text, machine, folder, needs, warnings=True):
-    """Names of the gates that an object does not pass, without the machine."""
+def found_in(text, machine, folder, needs, plainly=True):
+    """Names of the gates that an object, built twice, does not pass, without the machine."""
     folder.mkdir(exist_ok=True)
     if machine == "host":
         needs("gcc")
         for file, content in ((f"{text.name}.h", text.header), (f"{text.name}.c", text.source)):
             (folder / file).write_text(content)
-        Compiler(("gcc",), "gcc").run([*BASE_FLAGS, "-ffp-contract=off", "-c", f"{text.name}.c"], folder)
+        run, flags = Compiler(("gcc",), "gcc").run, [*BASE_FLAGS, "-ffp-contract=off"]
+        run([*flags, "-c", f"{text.name}.c"], folder)
         path = folder / f"{text.name}.o"
     else:
         needs(f"{TARGETS[machine].prefix}gcc")
-        path = find_toolchain(TARGETS[machine]).library_object(text, folder)
-    results = object_gates(read_image(path), text, machine)
+        toolchain = find_toolchain(TARGETS[machine])
+        path = toolchain.library_object(text, folder)
+        run, flags = toolchain.run, toolchain.flags
+    plain = build_plain(run, flags, text, folder) if plainly else None
+    results = object_gates(read_image(path), text, machine, plain)
     assert all(item.note for item in results if not item.passed)
     return [item.name.removesuffix(f" ({machine})") for item in results if not item.passed]
 
@@ -57,6 +70,7 @@ def test_the_examples_pass(block, precision, machine, tmp_path, needs):
         text = emit(block, precision, mathematics=mathematics)
         assert found_in(text, machine, tmp_path / mathematics, needs) == []
         assert loops_gate(text).passed
+        assert addresses_gate(text).passed
         assert source_loops(text.source)
 
 
@@ -78,6 +92,11 @@ FAULTS = {
         "",
         "volatile float scaled = (float)state->{count}; scaled = (float)((double)scaled * 1.1);",
     ),
+    "no fixed address": ("", "*(volatile uint32_t *)0x20000000U = state->{count};"),
+    "frames of fixed size": (
+        "",
+        "volatile uint8_t *room = (volatile uint8_t *)__builtin_alloca(state->{count} + 1U); room[0] = 1U;",
+    ),
 }
 
 
@@ -85,8 +104,7 @@ FAULTS = {
 @pytest.mark.parametrize("gate", FAULTS)
 def test_a_planted_fault_is_seen_by_its_gate_and_no_other(gate, machine, tmp_path, needs):
     text = emit(pendulum_ekf, "float")
-    count = next(item.name for item in pendulum_ekf.memory_signals_flat() if item.kind.value == "count")
-    declarations, statement = (item.format(count=count) for item in FAULTS[gate])
+    declarations, statement = (item.format(count=COUNT) for item in FAULTS[gate])
     assert found_in(planted(text, declarations, statement), machine, tmp_path, needs) == [gate]
 
 
@@ -107,19 +125,102 @@ def test_a_function_of_mathematics_that_the_c_does_not_call_is_not_listed():
     assert "__aeabi_dadd" in allowed_symbols(emit(pendulum_ekf, "double"), "thumb")
 
 
+ONLY_PLAINLY = {
+    "no recursion": (
+        "static uint32_t __attribute__((noinline)) down(uint32_t k, uint32_t n)\n{{\n"
+        "    return (k == 0U) ? n : down(k - 1U, (n * 3U) + (k * k));\n}}\n",
+        "if (down(state->{count}, 1U) == 7U) {{ return PENDULUM_EKF_OVERFLOW; }}",
+    ),
+    "no loop but those of the C": ("", "if (inputs == 0) {{ for (;;) {{ if (state->{count} > 0U) {{ break; }} }} }}"),
+}
+
+
+@pytest.mark.parametrize("machine", ["host", "cortex-m4", "rv32"])
+@pytest.mark.parametrize("gate", ONLY_PLAINLY)
+def test_what_the_optimiser_hides_is_seen_in_a_plain_build(gate, machine, tmp_path, needs):
+    text = emit(pendulum_ekf, "float")
+    declarations, statement = (item.format(count=COUNT) for item in ONLY_PLAINLY[gate])
+    fault = planted(text, declarations, statement.replace("inputs == 0", f"state->{COUNT} > 5U"))
+    assert found_in(fault, machine, tmp_path / "plain", needs) == [gate]
+    assert found_in(fault, machine, tmp_path / "optimised", needs, plainly=False) == []
+
+
+TABLE = """
+static float one(float x) { return x + 1.0f; }
+static float two(float x) { return x * 2.0f; }
+static float three(float x) { return x * x; }
+typedef float (*way_t)(float);
+static const way_t ways[3] = { one, two, three };
+float pick(float x, uint32_t k);
+float pick(float x, uint32_t k)
+{
+    return ways[k](x);
+}
+uint32_t choose(uint32_t x, uint32_t y);
+uint32_t choose(uint32_t x, uint32_t y)
+{
+    switch (x)
+    {
+        case 0U: return y * 3U;
+        case 1U: return y / 7U;
+        case 2U: return y ^ 5U;
+        case 3U: return y << 2U;
+        case 4U: return y % 11U;
+        case 5U: return y | 9U;
+        default: return y;
+    }
+}
+"""
+
+
+@pytest.mark.parametrize("machine", MACHINES)
+def test_a_call_through_a_table_is_no_switch(machine, tmp_path, needs):
+    text = planted(emit(pendulum_ekf, "float"), TABLE, "")
+    assert found_in(text, machine, tmp_path, needs, plainly=False) == ["no recursion"]
+    assert read_image(tmp_path / f"{text.name}.o").calls()["choose"] <= {"choose.cold"}
+    assert None in read_image(tmp_path / f"{text.name}.o").calls()["pick"]
+
+
+@pytest.mark.parametrize(
+    "room", ["float room[state->{count} + 1U]; (void)room;", "(void)__builtin_alloca(state->{count});"]
+)
+@pytest.mark.parametrize("label", ["gcc", "clang"])
+def test_stack_taken_at_run_time_is_warned_of(label, room, tmp_path, needs):
+    needs(label)
+    fault = planted(emit(pendulum_ekf, "float"), "", room.format(count=COUNT))
+    result = warnings_gate(Compiler((shutil.which(label),), label), fault, tmp_path)
+    assert not result.passed
+    assert "vla" in result.note or "alloca" in result.note
+
+
+@pytest.mark.parametrize(
+    "statement",
+    ["*(volatile float *)0x20000000 = 1.0f;", "(void)(uintptr_t)state;", "float *p = (float *)(4096U); (void)p;"],
+)
+def test_a_number_made_a_pointer_is_seen_in_the_c(statement):
+    assert not addresses_gate(planted(emit(pendulum_ekf, "float"), "", statement)).passed
+    assert not addresses_gate(planted(emit(pendulum_ekf, "float"), f"#define PLANTED {statement}", "")).passed
+
+
 @pytest.mark.parametrize(
     "loop",
     [
         "while (state != 0) {{ }}",
         "for (uint32_t k = 0U; k < state->{count}; k++) {{ }}",
         "do {{ }} while (state != 0);",
+        "if (state != 0) {{ for (;;) {{ }} }}",
+        "int x = 0; for (;;) {{ x = 1; }}",
+        "// /*\n    for (;;) {{ }}\n    // */",
+        "for (uint32_t k = 3U; k >= 0U; k--) {{ }}",
     ],
 )
 def test_an_unbounded_loop_is_seen(loop):
-    count = next(item.name for item in pendulum_ekf.memory_signals_flat() if item.kind.value == "count")
-    result = loops_gate(planted(emit(pendulum_ekf, "float"), "", loop.format(count=count)))
+    statement = loop.format(count=COUNT)
+    result = loops_gate(planted(emit(pendulum_ekf, "float"), "", statement))
     assert not result.passed
-    assert loop.split()[0] in result.note
+    assert next(word for word in ("while", "do", "for") if word in loop) in result.note
+    in_header = replace(emit(pendulum_ekf, "float"), header="#define FOREVER for (;;)\n")
+    assert loops_gate(in_header).note == "line 1 of the header: for (;;)"
 
 
 @pytest.mark.parametrize("label", ["gcc", "clang"])
@@ -129,8 +230,7 @@ def test_a_warning_is_seen(label, tmp_path, needs):
     text = emit(pendulum_ekf, "float")
     assert warnings_gate(compiler, text, tmp_path).passed
     for fault in ("int8_t narrow = state->{count}; (void)narrow;", "int unused_one = 1;"):
-        count = next(item.name for item in pendulum_ekf.memory_signals_flat() if item.kind.value == "count")
-        result = warnings_gate(compiler, planted(text, "", fault.format(count=count)), tmp_path)
+        result = warnings_gate(compiler, planted(text, "", fault.format(count=COUNT)), tmp_path)
         assert not result.passed
         assert "-W" in result.note
 

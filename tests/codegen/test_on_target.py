@@ -261,6 +261,26 @@ def test_code_that_does_not_fit_is_told(what, sizes, needs):
         run_on_target(view, native, check, native.run(free_trace(quadrotor_kf, 5)))
 
 
+def test_the_ram_that_is_needed_holds_the_bound_on_the_stack(needs, monkeypatch):
+    """A chip with room for the stack that was seen, and not for its bound, is refused; without a bound none is claimed."""
+    needs("riscv64-unknown-elf-gcc", "qemu-system-riscv32")
+    native, check = checked(pendulum_ekf, "float", 5)
+    view = TargetView(pendulum_ekf, "float", TARGETS["rv32"])
+    ours = native.run(free_trace(pendulum_ekf, 5))
+    facts = run_on_target(view, native, check, ours).facts
+    costs, needed = read("stack", facts), facts["ram"]["needed"]
+    bound, seen = (max(getattr(cost, what) for cost in costs.values()) for what in ("bound", "seen"))
+    assert seen < bound
+    view.target = view.target.with_sizes(ram=needed - 1)
+    with pytest.raises(TargetError, match=rf"needs {needed} bytes of RAM, there are {needed - 1};"):
+        run_on_target(view, native, check, ours)
+    unknown = dict.fromkeys(costs, (on_target.Unknown("planting"), on_target.Unknown("planting")))
+    monkeypatch.setattr(on_target, "_bounds", lambda *_: unknown)
+    facts = run_on_target(view, native, check, ours).facts
+    assert facts["ram"]["needed"] == f"unknown, at least {needed - bound + seen}"
+    assert "unknown because of planting" in facts["ram"]["note"]
+
+
 def test_an_unknown_target_is_refused_before_any_work():
     with pytest.raises(TargetError, match="no target 'avr'"):
         chosen_targets(Options(targets=("avr",)))

@@ -90,7 +90,7 @@ def test_a_failed_check_leaves_what_was_there(exported, tmp_path, monkeypatch):
 
     monkeypatch.setattr(package, "cross_check", failing)
     with pytest.raises(ExportError, match="pendulum_ekf: the check 'F = complex step' failed"):
-        export(pendulum_ekf, tmp_path, steps=STEPS)
+        export(pendulum_ekf, tmp_path, steps=STEPS, force=True)
     assert [path.name for path in tmp_path.iterdir()] == ["pendulum_ekf"]
     assert (folder / "src/pendulum_ekf.c").read_text() == "old"
 

@@ -59,6 +59,18 @@ FAULTS = {
         "    *state = after;",
     ),
     "a refused update is kept": ("step", "if (own >= PENDULUM_EKF_OK)", "if (own >= PENDULUM_EKF_OVERFLOW)"),
+    "a counter never written": (
+        "predict",
+        "    after->rejected_encoder = before->rejected_encoder;\n",
+        "",
+    ),
+    "a counter never reset": ("update_encoder", "                    after->rejected_encoder = 0U;\n", ""),
+    "a status never written": ("step", "            out->status_encoder = PENDULUM_EKF_OK;\n", ""),
+    "a status that the stub does not return": (
+        "hold_variances",
+        "status = PENDULUM_EKF_CLAMPED;",
+        "status = PENDULUM_EKF_RECOVERED;",
+    ),
     "held without the exact test": ("hold_variances", "(!pendulum_ekf_is_held(covariance))", "(covariance[0] < 0.0f)"),
 }
 
@@ -72,3 +84,16 @@ def test_a_planted_fault_is_seen(needs, fault):
     broken = replace(FLOAT, source=FLOAT.source.replace(before, after))
     (check,) = prove(pendulum_ekf, broken, [where]).checks
     assert not check.passed
+
+
+def test_an_analysis_that_does_not_end_is_a_failed_proof(needs):
+    needs("frama-c")
+    (check,) = prove(pendulum_ekf, FLOAT, ["is_held"], seconds=0.05).checks
+    assert not check.passed
+    assert "not done after" in check.note
+
+
+def test_c_that_cannot_be_read_is_told_in_a_sentence(needs):
+    needs("frama-c")
+    with pytest.raises(ProofError, match="no report; mend the C"):
+        prove(pendulum_ekf, replace(FLOAT, source=FLOAT.source + "\nint;;= x\n"), ["is_held"])

@@ -7,6 +7,10 @@ import subprocess
 import sys
 
 import pytest
+from plantc.codegen.folder import FolderError
+from plantc.codegen.package import with_design
+
+from plantc.models import blocks_of
 
 PENDULUM = """\
 from plantc import Plant, extended_kalman_filter, trim
@@ -96,6 +100,39 @@ def test_as_a_program_streams_and_status(model):
     assert done.stderr.splitlines()[0] == "I talk"
     assert "\x1b" not in done.stderr  # no colours, no progress bar
     assert done.stderr.splitlines()[-1] == "model.py: 2 plant(s) derived"
+
+
+TALKATIVE = """
+import ctypes, os, subprocess
+print("by Python")
+os.write(1, b"by descriptor\\n")
+subprocess.run(["echo", "by a program"], check=True)
+ctypes.CDLL(None).printf(b"by C\\n")
+"""
+
+
+def test_whatever_a_model_writes_the_output_is_one_object(model):
+    done = program("derive", model(PENDULUM + TALKATIVE), "--dt", 0.01, "--json")
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["status"] == 0
+    for way in ("by Python", "by descriptor", "by a program", "by C"):
+        assert way in done.stderr
+
+
+@pytest.mark.parametrize("raised", ["Own('boo')", "SystemExit(0)", "GeneratorExit('boo')"])
+def test_whatever_a_model_raises_is_a_sentence(raised, model, plantc):
+    text = f"class Own(BaseException):\n    pass\n\nraise {raised}\n"
+    said = plantc("export", model(text), "--json")
+    fails(said, 2, "model.py, line 4: ", raised.split("(")[0])
+    assert one_object(said)
+
+
+@pytest.mark.parametrize("raised", ["SystemExit(0)", "GeneratorExit()"])
+def test_whatever_is_raised_while_a_model_is_worked_on_is_a_sentence(raised, model, plantc):
+    call = f"def call(*given):\n    raise {raised}\n\nlow_pass.oracle = type('Own', (), {{'call': call}})()\n"
+    said = plantc("export", model(LOW_PASS + call), *FAST, "--json")
+    fails(said, 2, raised.split("(")[0])
+    assert one_object(said)
 
 
 def test_as_a_program_a_mistake(model):
@@ -370,6 +407,20 @@ def test_without_a_compiler_it_says_what_to_install(model, plantc, monkeypatch):
     fails(plantc("export", model(LOW_PASS), *FAST), 2, "$CC", "no-such-compiler")
 
 
+def test_an_fmu_of_a_block_without_a_step_is_refused_before_the_work(model, plantc, tmp_path):
+    path = model(LOW_PASS.replace('entry("step"', 'entry("filter"'))
+    fails(plantc("export", path, "--fmu", *FAST), 2, "--fmu", "low_pass has no entry step", "filter", "add one")
+    assert not (tmp_path / "generated_c").exists()
+
+
+def test_an_fmu_without_fmpy_says_what_to_install(model, plantc, tmp_path, monkeypatch):
+    from plantc.codegen import fmu
+
+    monkeypatch.setattr(fmu.importlib.util, "find_spec", lambda name: None)
+    fails(plantc("export", model(LOW_PASS), "--fmu", *FAST), 2, "fmpy", "pip install 'plantc[fmu]'")
+    assert not (tmp_path / "generated_c").exists()
+
+
 def plant_a_fault(monkeypatch):
     """From now on the C of the low-pass weighs a little wrong."""
     from dataclasses import replace
@@ -533,10 +584,63 @@ def test_designed_numbers_of_another_model_stop_the_export(model, plantc, tmp_pa
     assert plantc("check", "generated_c/cart_sskf", "--model", name, *FAST).status == 0
 
 
-def test_designed_numbers_that_cannot_be_read(model, plantc, tmp_path):
-    name = model(CART)
-    (tmp_path / "design.json").write_text("{")
-    fails(plantc("export", name, *FAST), 2, "design.json", "--redesign")
+@pytest.mark.parametrize(
+    "text",
+    [
+        "{",
+        "[]",
+        '{"cart_sskf": 5}',
+        '{"cart_sskf": {"source": "a"}}',
+        '{"other": []}',
+        '{"cart_sskf": {"source": SOURCE, "values": {}}}',
+        '{"cart_sskf": {"source": SOURCE, "values": {"gain": "high"}}}',
+        '{"cart_sskf": {"source": SOURCE, "values": {"gain": [[1], [2, 3]]}}}',
+    ],
+)
+def test_designed_numbers_that_cannot_be_read(text, model, plantc, tmp_path):
+    name, design = model(CART), tmp_path / "design.json"
+    source = blocks_of(name)[0][0].design.source
+    design.write_text(text.replace("SOURCE", json.dumps(source)))
+    before = design.read_text()
+    said = plantc("export", name, *FAST)
+    fails(said, 2, "design.json", "--redesign")
+    assert "itself failed" not in said.err
+    assert design.read_text() == before
+    with_design(blocks_of(name)[0][0], design, redesign=True)
+    assert with_design(blocks_of(name)[0][0], design)[1] is None
+
+
+def test_an_export_that_is_refused_leaves_no_designed_numbers(model, plantc, tmp_path):
+    folder = tmp_path / "generated_c/cart_sskf"
+    folder.mkdir(parents=True)
+    (folder / "thesis.tex").write_text("mine")
+    fails(plantc("export", model(CART), *FAST), 2, "thesis.tex")
+    assert not (tmp_path / "design.json").exists()
+
+
+def test_designed_numbers_are_written_whole_or_not_at_all(model, tmp_path, monkeypatch):
+    name, design = model(CART), tmp_path / "design.json"
+    design.write_text("{}")
+
+    def full(source, target):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", full)
+    with pytest.raises(FolderError, match="design.json: cannot be written"):
+        with_design(blocks_of(name)[0][0], design)
+    assert design.read_text() == "{}"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["design.json", name]
+
+
+def test_a_file_changed_by_hand_is_written_over_only_where_asked(model, plantc, tmp_path):
+    name = model(LOW_PASS)
+    assert plantc("export", name, *FAST).status == 0
+    source = tmp_path / "generated_c/low_pass/src/low_pass.c"
+    source.write_text(source.read_text() + "/* mine */\n")
+    fails(plantc("export", name, *FAST), 2, "low_pass.c", "changed since plantc wrote it", "--force")
+    assert "mine" in source.read_text()
+    assert plantc("export", name, *FAST, "--force").status == 0
+    assert "mine" not in source.read_text()
 
 
 # -- progress, demo ---------------------------------------------------------------------------------------------------
@@ -589,6 +693,13 @@ def test_check_proves_what_lies_there(model, plantc, needs, tmp_path):
     bad = plantc("check", folder, "--model", f"{name}:pendulum_ekf", *FAST, "--prove")
     assert bad.status == 1
     assert "FAIL proof of is_held" in bad.err
+
+
+def test_what_may_be_fused_is_not_proved(model, plantc, needs, tmp_path):
+    needs("frama-c", "gappa")
+    name, folder = model(LOW_PASS), tmp_path / "generated_c/low_pass"
+    assert plantc("export", name, *FAST, "--contract", "on").status == 0
+    fails(plantc("check", folder, "--model", name, *FAST, "--prove"), 2, "--contract on", "--contract off")
 
 
 # -- tables that a model brings ---------------------------------------------------------------------------------------

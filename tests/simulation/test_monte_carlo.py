@@ -197,6 +197,9 @@ def test_a_known_start_has_the_estimate_at_the_truth_and_the_command_that_belong
         assert params[f"controller.delay_estimator_rotor_{k + 1}_0"] == pytest.approx(expected[k], rel=1e-12)
     for state in made.layout.states:
         np.testing.assert_array_equal(params[f"controller.estimator.{state.name}_0"], params[f"plant.{state.name}_0"])
+    doubled = {"controller.feedback.gain": 2 * gain.ravel()}
+    found = module.first_command(made, x, doubled)
+    np.testing.assert_allclose(found, made.point.u - 2 * gain @ (x - made.point.x), rtol=1e-12)
 
 
 INTERRUPTED = """
@@ -277,3 +280,26 @@ def test_the_paper_s_estimator_loses_every_run_and_has_the_lowest_mean_square_to
     assert lost < 0.01
     assert result.median("error", "finite") > 1e5
     assert lost < monte_carlo(loop("ekf"), params=tuned("ekf", r), **common).mean("estimate_to_set_point").value
+
+
+@pytest.mark.slow
+def test_protocol_c_of_section_10_3_starts_at_the_truth(loop, tuned):
+    made = loop("ekf")
+    names = [state.name for state in made.layout.states]
+    std = {"pose_noise": 0.1} | {f"{name}_noise": 1e-6 for name in names}
+    certain = {f"controller.estimator.variance_{name}_0": 1e-12 for name in names}
+    result = monte_carlo(
+        made,
+        runs=20,
+        steps=2000,
+        seed=1,
+        start=Start(0.1, known=True),
+        std=std,
+        params=tuned("ekf", 0.1) | certain,
+        limits=LIMITS,
+    )
+    assert result.count("kept") == 20
+    for metric, value in {"estimate_to_set_point": 0.026, "error": 0.0021, "regulation": 0.028, "nees": 6.0}.items():
+        found = result.mean(metric)
+        # the specification gives two digits of the first three, and "about 6" of the last
+        assert found.value == pytest.approx(value, abs=max(0.08 * value, 5 * found.standard_error)), metric

@@ -10,7 +10,7 @@ import pytest
 from plantc.codegen.crosscheck import cross_check
 from plantc.codegen.layout import flatten
 from plantc.codegen.views import InterpretView, NativeView
-from plantc.symbolic import Block, ModelError, Status, fmin
+from plantc.symbolic import Block, ModelError, Status, fmin, vertcat
 
 
 def low_pass(weight=0.25, doc="a filter", status=Status.BAD_INPUT):
@@ -231,6 +231,20 @@ def test_an_output_held_at_a_limit_says_so(view):
         assert answer.outputs["command"].tolist() == expected
 
 
+def test_a_limit_may_be_an_expression():
+    block = Block("pace")
+    raw = block.input("raw")
+    last = block.memory("last")
+    following = fmin(raw, last + 1.0)
+    block.entry(
+        "step", inputs=[raw], following={last: following}, outputs={"slow": raw}, limits={"slow": (-1e6, last + 1.0)}
+    )
+    view = NativeView(block)
+    answer = view.call("step", view.init(), view.inputs("step", {"raw": 5.0}), view.params())
+    assert (answer.status, answer.outputs["slow"], answer.memory["last"]) == (Status.CLAMPED, 1.0, 1.0)
+    assert cross_check(block, steps=40).passed
+
+
 def test_a_limit_does_not_hide_what_is_no_command():
     view = NativeView(limited(huge=True))
     answer = view.call("step", view.init(), view.inputs("step", {"raw": [0.0, 900.0]}), view.params())
@@ -242,7 +256,8 @@ def test_mistakes_of_limits():
     stranger = block.parameter("stranger", 1.0)
     for limits, says in (
         ({"other": (0, 1)}, r"limits= names 'other', which is not an output; it has \['command'\]"),
-        ({"command": (0, stranger)}, r"the limit 'stranger' of 'command' is not a parameter of 1 or 2 element"),
+        ({"command": (0, vertcat(stranger, stranger, stranger))}, r"a limit of 'command' has 3 elements; give 1 or 2"),
+        ({"command": (0, stranger)}, r"the entry 'step' uses .*stranger.*, which it does not take"),
         ({"command": ([0, 0, 0], 1)}, r"the limit of 'command' is \[0, 0, 0\]; give 2 finite number"),
     ):
         with pytest.raises(ModelError, match=says):

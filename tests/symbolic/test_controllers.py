@@ -2,9 +2,11 @@
 
 import json
 
+import control
 import numpy as np
 import pytest
 from plantc.codegen.package import design_residuals, with_design
+from scipy import signal
 from scipy.spatial.transform import Rotation
 
 from plantc import (
@@ -12,15 +14,24 @@ from plantc import (
     ModelError,
     NativeView,
     Plant,
+    ReferenceView,
     Status,
     connect,
     cross_check,
+    delay,
     export,
     extended_kalman_filter,
     linearise,
+    low_pass,
     lqr,
+    notch,
+    pid,
     place,
+    rate_limiter,
+    saturation,
     state_feedback,
+    state_space,
+    transfer_function,
     wires,
 )
 
@@ -198,7 +209,7 @@ def test_the_applied_command_goes_back_to_the_estimator():
 def test_designed_numbers_of_a_part_are_those_of_the_whole(tmp_path):
     block, file = controller(), tmp_path / "design.json"
     made, wrote = with_design(block, file)
-    assert wrote
+    assert wrote is not None
     assert made is block
     stored = json.loads(file.read_text())
     values = stored["pendulum_controller"]["values"]["feedback.gain"]
@@ -206,7 +217,7 @@ def test_designed_numbers_of_a_part_are_those_of_the_whole(tmp_path):
     assert all(result.passed for result in design_residuals(block))
 
     again, wrote = with_design(controller(), file)
-    assert not wrote
+    assert wrote is None
     assert again.model_hash() == block.model_hash()
 
     values[0][0] += 0.5  # what the file says is what the C gets
@@ -238,15 +249,189 @@ def test_numbers_of_ones_own_are_no_design():
     assert controller(gain=[[30.0, 8.0]]).design is None
 
 
-# -- every block as C -------------------------------------------------------------------------------------------------
+# -- PID --------------------------------------------------------------------------------------------------------------
 
-BLOCKS = {**FEEDBACKS}
+H = 0.1
+PIDS = {
+    "pid": lambda: pid(2.0, 0.5, 0.3, dt=H, command_range=(0, 10), range=(-50, 50), unit="K", command_unit="W"),
+    "pi_negative": lambda: pid(-2.0, -0.5, dt=H, command_range=(-3, 3), range=(-50, 50)),
+    "pd": lambda: pid(2.0, 0.0, 0.3, dt=H, command_range=(-3, 3), range=(-50, 50), derivative_weight=1.0),
+    "integral_only": lambda: pid(0.0, 2.0, dt=H, command_range=(-3, 3)),
+}
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+@pytest.mark.parametrize("name", PIDS)
+def test_all_views_of_a_pid_agree(name, precision):
+    check = cross_check(PIDS[name](), precision, steps=60)
+    assert check.passed, failures(check)
+    assert check.statuses["OK"] > 30
+    assert check.statuses["CLAMPED"] > 5
+
+
+def driven(block, errors, params=None):
+    """Return the commands of a PID with set point 0 for a sequence of errors."""
+    view, answer = ReferenceView(block), []
+    params, memory = view.params(**(params or {})), None
+    for error in errors:
+        _, memory, out = step(view, memory, params, set_point=0.0, measured=-error)
+        answer.append(float(out["command"]))
+    return np.array(answer)
+
+
+@pytest.mark.parametrize("kd", [0.0, 0.7])
+def test_a_pid_within_its_limits_is_a_linear_filter(kd):
+    kp, ki, tf = 1.5, 0.8, 0.25
+    block = pid(kp, ki, kd, dt=H, filter_time=tf, command_range=(-1e6, 1e6))
+    errors = np.concatenate([[0.0], np.random.default_rng(0).normal(size=60)])
+    a = tf / (tf + H)
+    # P + forward Euler I + backward difference of a filtered slope, over (1 - 1/z)(1 - a/z)
+    numerator = np.polymul([1, -1], [1, -a]) * kp
+    numerator = numerator + np.convolve([0, ki * H], [1, -a]) + kd / (tf + H) * np.polymul([1, -1], [1, -1])
+    expected = signal.lfilter(numerator, np.polymul([1, -1], [1, -a]), errors)
+    np.testing.assert_allclose(driven(block, errors), expected, rtol=1e-9, atol=1e-9)
+
+
+def test_the_integral_does_not_wind_up():
+    kp, ki, tt, e = 1.0, 2.0, 0.5, 3.0
+    block = pid(kp, ki, dt=H, tracking_time=tt, command_range=(-2, 2))
+    view = InterpretView(block)
+    memory, params = None, view.params()
+    for k in range(200):
+        status, memory, out = step(view, memory, params, set_point=e, measured=0.0)
+        if k == 0:
+            first = float(memory["integral_part"])
+    assert (status, out["command"]) == (Status.CLAMPED, 2.0)
+    # at rest ki e = (unlimited - limited) / tt, reached by a factor 1 - dt/tt a step
+    settled = 2.0 - kp * e + tt * ki * e
+    assert memory["integral_part"] == pytest.approx(settled, abs=1e-9)
+    assert first == pytest.approx(settled * H / tt, abs=1e-12)
+    # and so the command leaves its limit within steps of the error changing sign, where a plain integral takes as long
+    # as it was held
+
+    def steps_at_limit(tracking_time):
+        commands = driven(block, [e] * 200 + [-0.5] * 400, {"tracking_time": tracking_time})
+        return int(np.argmax([*(commands[200:] < 2.0), True]))  # all of them, if it never leaves
+
+    assert steps_at_limit(tt) <= 6
+    assert steps_at_limit(100.0) > 300
+
+
+def test_no_jump_when_the_controller_takes_over_or_is_retuned():
+    view = NativeView(pid(2.0, 0.5, 0.3, dt=H, command_range=(0, 10), set_point_weight=0.6))
+    params, memory = view.params(), None
+    for _ in range(5):
+        _, memory, _ = step(view, memory, params, "track", set_point=5.0, measured=4.0, applied=3.25)
+    status, memory, out = step(view, memory, params, set_point=5.0, measured=4.0)
+    assert (status, float(out["command"])) == (Status.OK, pytest.approx(3.25, abs=1e-12))
+    retuned = view.params(proportional=6.0, integral=0.1, derivative=0.0)
+    for _ in range(3):
+        _, memory, out = step(view, memory, params, set_point=5.0, measured=4.0)
+    last = float(out["command"])
+    assert last > 3.25 + 2 * 0.5 * H * 0.9
+    _, memory, _ = step(view, memory, retuned, "track", set_point=5.0, measured=4.0, applied=last)
+    _, memory, out = step(view, memory, retuned, set_point=5.0, measured=4.0)
+    assert out["command"] == pytest.approx(last, abs=1e-12)
+
+
+def test_set_point_weights_and_no_kick_at_the_start():
+    block = pid(2.0, 0.0, 1.0, dt=H, filter_time=0.2, command_range=(-1e3, 1e3), set_point_weight=0.5)
+    view = InterpretView(block)
+    _, memory, out = step(view, set_point=4.0, measured=1.0)
+    assert out["command"] == pytest.approx(2.0 * (0.5 * 4.0 - 1.0))  # the first reading has no slope
+    _, memory, out = step(view, memory, set_point=8.0, measured=1.0)
+    assert out["command"] == pytest.approx(2.0 * (0.5 * 8.0 - 1.0))  # D does not see the set point
+    _, _, out = step(view, memory, set_point=8.0, measured=1.3)
+    assert out["command"] == pytest.approx(2.0 * (0.5 * 8.0 - 1.3) - 1.0 / (0.2 + H) * 0.3)
+    weighted = view.params(derivative_weight=1.0)
+    _, _, out = step(view, memory, weighted, set_point=9.0, measured=1.0)
+    assert out["command"] == pytest.approx(2.0 * (0.5 * 9.0 - 1.0) + 1.0 / (0.2 + H))
+
+
+def test_without_integral_gain_nothing_is_integrated():
+    view = NativeView(PIDS["pd"]())
+    params, memory = view.params(), None
+    for _ in range(20):
+        status, memory, _ = step(view, memory, params, set_point=40.0, measured=0.0)
+    assert (status, memory["integral_part"]) == (Status.CLAMPED, 0.0)
+    _, memory, _ = step(view, memory, params, "track", set_point=40.0, measured=0.0, applied=1.0)
+    assert memory["integral_part"] == 0.0
+
+
+def test_a_pid_closes_a_loop_of_blocks():
+    """Heater and controller as one block: the temperature settles on the set point, the command is held on the way."""
+    heater = transfer_function(
+        control.tf([2.0], [5.0, 1.0]), dt=H, method="zoh", range=(0, 10), unit="W", output_unit="K"
+    )
+    loop = connect(
+        {"pid": pid(3.0, 0.8, dt=H, command_range=(0, 10), unit="K", command_unit="W"), "heater": heater},
+        {"pid.measured": delay("heater.filtered", 0.0), "heater.raw": "pid.command"},
+        "oven",
+    )
+    assert loop.sample_time == H
+    check = cross_check(loop, steps=30)
+    assert check.passed, failures(check)
+    view = NativeView(loop)
+    memory, statuses, values = None, [], []
+    for _ in range(600):
+        status, memory, out = step(view, memory, pid_set_point=15.0)
+        statuses.append(status)
+        values.append(float(out["heater"]["filtered"]))
+    assert statuses[0] == Status.CLAMPED
+    assert statuses[-1] == Status.OK
+    assert values[-1] == pytest.approx(15.0, abs=1e-6)
+    assert max(values) < 15.0 * 1.05
+
+
+@pytest.mark.parametrize("limits", [{"minimum": 6.0, "maximum": 4.0}, {"tracking_time": 0.01}, {"filter_time": -1.0}])
+def test_init_refuses_parameters_that_make_no_sense(limits):
+    for view in (NativeView, InterpretView, ReferenceView):
+        made = view(PIDS["pid"]())
+        with pytest.raises(ValueError, match="BAD_PARAM"):
+            made.init(made.params(**limits))
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (lambda: pid(1.0, dt=H, command_range=(1, -1)), "the range of the signal is 1 .. -1"),
+        (lambda: pid(1.0, dt=0, command_range=(-1, 1)), "dt is 0; give the seconds per step"),
+        (
+            lambda: pid(1.0, 1.0, dt=H, command_range=(-1, 1), tracking_time=0.05),
+            "tracking_time is 0.05 s; give at least 0.1",
+        ),
+        (lambda: pid(1.0, 1.0, dt=H, command_range=(-1, 1), filter_time=-1), "filter_time is -1 s; give at least 0 s"),
+    ],
+)
+def test_what_is_no_pid(make, says):
+    with pytest.raises(ModelError, match=says):
+        make()
+
+
+# -- as C -------------------------------------------------------------------------------------------------------------
+
+EXPORTED = [  # a block of each shape; those of the same shape are cross-checked in both precisions beside their own tests
+    (FEEDBACKS["attitude"], "double"),
+    (PIDS["pid"], "float"),
+    (lambda: notch(2.0, 0.5, dt=H, depth=0.9, range=(-10, 10)), "double"),
+    (lambda: rate_limiter(2.0, -3.0, dt=H, range=(-10, 10)), "float"),
+    (lambda: saturation(-1, 1), "float"),
+    (lambda: transfer_function(signal.butter(5, 1.0, fs=1 / H), dt=H, range=(-10, 10)), "float"),
+]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("precision", ["double", "float"])
-@pytest.mark.parametrize("name", BLOCKS)
-def test_every_block_passes_the_gates(name, precision, tmp_path):
-    made = export(BLOCKS[name](), tmp_path, precision=precision, steps=60)
+@pytest.mark.parametrize(("make", "precision"), EXPORTED, ids=[f"{make().name}-{word}" for make, word in EXPORTED])
+def test_a_block_passes_the_gates(make, precision, tmp_path):
+    made = export(make(), tmp_path, precision=precision, steps=40)
     assert made.passed
     assert not any("no independent reference" in item.note for item in made.check.results)
+
+
+def test_a_part_without_memory_and_parameters():
+    twice = transfer_function(([2.0], [1.0]), dt=H, range=(-10, 10))
+    states = state_space(control.ss([[0, 1], [-4, -0.5]], [[0], [1]], [[1, 0]], 0), dt=H, method="zoh")
+    lines = {"states.u_0": "twice.filtered", "slow.raw": "states.y_0"}
+    block = connect({"twice": twice, "states": states, "slow": low_pass(1.0, dt=H, order=2)}, lines, "chain")
+    check = cross_check(block, "float", steps=20)
+    assert check.passed, failures(check)

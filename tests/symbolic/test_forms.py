@@ -232,14 +232,14 @@ def test_pendulum_keeps_its_name_and_memory_by_default():
 @pytest.mark.parametrize("fault", ["gain", "loss", "time"])
 def test_a_fault_in_a_factored_kernel_is_caught(monkeypatch, fault):
     if fault == "time":
-        original = factors._weighted_gram_schmidt
+        original = factors._triangularised
 
-        def wrong(rows, weights):
-            answer = original(rows, weights)
+        def wrong(rows, weights, positive):
+            answer = original(rows, weights, positive)
             answer[1] = -answer[1]
             return answer
 
-        monkeypatch.setattr(factors, "_weighted_gram_schmidt", wrong)
+        monkeypatch.setattr(factors, "_triangularised", wrong)
     else:
         original = factors.FactoredRowUpdate.scalar
 

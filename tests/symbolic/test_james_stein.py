@@ -11,7 +11,7 @@ from plantc.codegen import emit
 from plantc.codegen.crosscheck import make_views
 from plantc.codegen.layout import flatten
 from plantc.reference.james_stein import effective_dimension, james_stein, shrink_constant, weight
-from plantc.symbolic import ModelError, Plant, Status, cos, sin, vertcat
+from plantc.symbolic import ModelError, Plant, Status, cos, sin, sqrt, vertcat
 from plantc.symbolic.james_stein import james_stein_estimator
 from scipy.optimize import least_squares
 
@@ -297,6 +297,30 @@ def test_a_low_rank_corrects_where_it_sees_if_asked():
     assert cross_check(block, steps=40).passed
 
 
+def test_sensors_are_taken_one_after_another():
+    plant = Plant("two", dt=1.0)
+    x = plant.state("x", size=3, range=(-100, 100))
+    plant.dynamics({x: x})
+    plant.sensor("close", x, std=0.1)
+    plant.sensor("part", x[0], std=0.1)
+    plant.sensor("remote", 2 * x, std=0.4)
+    with pytest.raises(ModelError, match="the sensor 'part' has rank 1"):
+        james_stein_estimator(plant)
+    block = james_stein_estimator(plant, sensors=["remote", "close"], gamma={"remote": 0.01}, std={"remote": 0.5})
+    names = [signal.name for signal in block.param_signals]
+    assert names == ["std_close", "std_remote", "gamma_remote", "x_0"]
+    view = NativeView(block)
+    params = view.params()
+    readings = {"close": np.array([1.0, 2, 3]), "remote": np.array([2.5, 3.5, 6.5])}
+    first = james_stein(np.zeros(3), readings["close"], np.eye(3), np.eye(3), 0.1).state
+    both = james_stein(first, readings["remote"], 2 * np.eye(3), np.eye(3), 0.5, 0.01).state
+    for flags, expected in (((True, True), both), ((True, False), first), ((False, False), np.zeros(3))):
+        inputs = readings | {"has_close": flags[0], "has_remote": flags[1]}
+        answer = view.call("step", view.init(params), view.inputs("step", inputs), params)
+        np.testing.assert_allclose(answer.memory["x"], expected, rtol=1e-13)
+    assert cross_check(block, steps=40).passed
+
+
 # -- faults -----------------------------------------------------------------------------------------------------------
 
 
@@ -469,6 +493,31 @@ def block_with_fewer_steps():
     block = curved(iterations=1)
     block.oracle = curved(iterations=5).oracle
     return block
+
+
+NOWHERE = {
+    "a derivative that is infinite": (lambda x, y: vertcat(1 / x, y), lambda x: 0.01, 0.0, Status.OVERFLOW),
+    "a noise that is infinite": (lambda x, y: vertcat(x, y), lambda x: vertcat(1 / x**2, 1), 0.0, Status.NOT_POSITIVE),
+    "a noise that is no number": (lambda x, y: vertcat(x, y), lambda x: vertcat(1, sqrt(x)), -1.0, Status.OVERFLOW),
+    "a noise that is negative": (lambda x, y: vertcat(x, y), lambda x: vertcat(1, x), -1.0, Status.NOT_POSITIVE),
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("case", NOWHERE)
+def test_what_is_no_number_is_refused(kind, case):
+    reading, noise, bad, expected = NOWHERE[case]
+    plant = Plant("pole", dt=1.0)
+    x, y = plant.state("x", range=(-10, 10)), plant.state("y", range=(-10, 10))
+    plant.dynamics({x: x, y: y})
+    plant.sensor("s", reading(x, y), variance=noise(x))
+    view = kind(james_stein_estimator(plant, around={"x": 1.0}))
+    params = view.params()
+    memory = view.init(params)
+    inputs = view.inputs("update_s", {"s": [1.0, 1.0]})
+    assert view.call("update_s", memory, inputs, params).status == Status.OK
+    memory["x"] = bad
+    assert view.call("update_s", memory, inputs, params).status == expected
 
 
 def changing(n):

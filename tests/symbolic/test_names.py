@@ -5,7 +5,9 @@ import re
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from plantc.symbolic import ModelError, Plant
+from plantc.codegen import emit
+from plantc.examples.pendulum import pendulum_ekf
+from plantc.symbolic import Block, ModelError, Plant
 from plantc.symbolic.names import check_name, check_unique, why_not_a_name
 
 REASONS = {
@@ -15,6 +17,8 @@ REASONS = {
     "identifier": ["1x", "a b", "a-b", "a.b", "x[0]", "größe", "a;b", "x\n"],
     "function": ["sin", "sqrt", "atan2", "main", "floor"],
     "generated C uses": ["out", "params", "state", "status"],
+    "standard C headers": ["INT_MAX", "DBL_EPSILON", "FE_DIVBYZERO", "EXIT_FAILURE", "uint32_t", "size_t", "va_arg"],
+    "trailing underscore": ["float_", "x_"],
     "longer than 48": ["a" * 49],
     "not a word": ["", None, 3],
 }
@@ -32,6 +36,48 @@ def test_refused_with_the_reason_and_a_name_that_is_accepted(reason, name):
     assert repr(name) in str(caught.value)
     assert str(caught.value).startswith("cart: the state name ")
     assert why_not_a_name(proposal_of(str(caught.value))) is None
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "reason"),
+    [
+        *(("block", name, "hides <") for name in ("math", "string", "stdbool", "Math", "fenv", "time")),
+        *(("block", name, "files of its own") for name in ("test_vectors", "fan_main")),
+        *(("block", name, "once more") for name in ("fe", "x")),
+        *(("entry", name, "type or a function of its own") for name in (
+            "model", "status_text", "init_core", "status_t", "state_t", "math_sin", "higher", "GATED", "H", "is_held"
+        )),
+    ],
+)  # fmt: skip
+def test_names_that_would_break_the_build_as_a_block_or_an_entry(kind, name, reason):
+    assert kind != "block" or why_not_a_name(name) is None, "as a signal it is good"
+    with pytest.raises(ModelError, match=reason) as caught:
+        check_name(kind, name, "cart")
+    assert why_not_a_name(proposal_of(str(caught.value)), kind) is None
+
+
+def test_entries_and_parts_of_one_name_in_the_c():
+    def gain(name, entry):
+        block = Block(name)
+        u = block.input("u", range=(-1, 1))
+        block.entry(entry, inputs=[u], outputs={"y": 2 * u})
+        return block
+
+    block = gain("pair", "a_step")
+    block.parts["a"] = gain("a", "step")
+    with pytest.raises(ModelError, match=r"pair: .*entry 'step' of part 'a'.* both be called 'a_step'"):
+        block.check()
+
+
+def test_the_emitter_names_nothing_that_an_entry_may_be_called():
+    """All that the C of a filter defines at file scope is an entry's, or is refused as an entry's name."""
+    text = emit(pendulum_ekf, "double")
+    found = set(re.findall(r"\bpendulum_ekf_(\w+)(?= ?\()", text.source)) | set(
+        re.findall(r"} pendulum_ekf_(\w+);", text.header)
+    )
+    own = {f"{name}{end}" for name in pendulum_ekf.entries for end in ("", "_core", "_in_t", "_out_t")}
+    assert {"model", "status_text", "higher", "state_t"} <= found
+    assert [name for name in sorted(found - own) if why_not_a_name(name, "entry") is None] == []
 
 
 @pytest.mark.parametrize("name", ["x", "theta", "B", "B2", "B101010101", "Pi", "f", "ii", "a" * 48, "x_1", "Sin", "e"])

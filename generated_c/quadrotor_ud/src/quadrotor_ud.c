@@ -1,4 +1,4 @@
-/* quadrotor_ud: see quadrotor_ud.h. Written by plantc 0.1.0 from model e19130e8. */
+/* quadrotor_ud: see quadrotor_ud.h. Written by plantc 0.1.0 from model f4dfb1d1. */
 #include "quadrotor_ud.h"
 
 #include <math.h>
@@ -299,6 +299,110 @@ static quadrotor_ud_status_t quadrotor_ud_hold_factors(float factors[78])
     return status;
 }
 
+/* Whether factors are within their bounds beyond doubt. Elements that are small, and whose sum is not far below
+ * zero, are not far below zero themselves. False for NaN. */
+static bool quadrotor_ud_is_bounded(const float factors[78])
+{
+    return ((factors[0] >= 1.0e-20f) == true)
+           && ((factors[12] >= 1.0e-20f) == true)
+           && ((factors[23] >= 1.0e-20f) == true)
+           && ((factors[33] >= 1.0e-20f) == true)
+           && ((factors[42] >= 1.0e-20f) == true)
+           && ((factors[50] >= 1.0e-20f) == true)
+           && ((factors[57] >= 1.0e-20f) == true)
+           && ((factors[63] >= 1.0e-20f) == true)
+           && ((factors[68] >= 1.0e-20f) == true)
+           && ((factors[72] >= 1.0e-20f) == true)
+           && ((factors[75] >= 1.0e-20f) == true)
+           && ((factors[77] >= 1.0e-20f) == true)
+           && (((((((((factors[0] + factors[12]) + factors[23]) + factors[33]) + factors[42]) + factors[50]) +
+               factors[57]) + factors[63]) <= 490.0f) == true)
+           && (((((factors[68] + factors[72]) + factors[75]) + factors[77]) <= 490.0f) == true)
+           && ((factors[1] <= 62.0f) == true)
+           && ((factors[2] <= 62.0f) == true)
+           && ((factors[3] <= 62.0f) == true)
+           && ((factors[4] <= 62.0f) == true)
+           && ((factors[5] <= 62.0f) == true)
+           && ((factors[6] <= 62.0f) == true)
+           && ((factors[7] <= 62.0f) == true)
+           && ((factors[8] <= 62.0f) == true)
+           && (((((((((factors[1] + factors[2]) + factors[3]) + factors[4]) + factors[5]) + factors[6]) + factors[7]) +
+               factors[8]) >= -490.0f) == true)
+           && ((factors[9] <= 62.0f) == true)
+           && ((factors[10] <= 62.0f) == true)
+           && ((factors[11] <= 62.0f) == true)
+           && ((factors[13] <= 62.0f) == true)
+           && ((factors[14] <= 62.0f) == true)
+           && ((factors[15] <= 62.0f) == true)
+           && ((factors[16] <= 62.0f) == true)
+           && ((factors[17] <= 62.0f) == true)
+           && (((((((((factors[9] + factors[10]) + factors[11]) + factors[13]) + factors[14]) + factors[15]) +
+               factors[16]) + factors[17]) >= -490.0f) == true)
+           && ((factors[18] <= 62.0f) == true)
+           && ((factors[19] <= 62.0f) == true)
+           && ((factors[20] <= 62.0f) == true)
+           && ((factors[21] <= 62.0f) == true)
+           && ((factors[22] <= 62.0f) == true)
+           && ((factors[24] <= 62.0f) == true)
+           && ((factors[25] <= 62.0f) == true)
+           && ((factors[26] <= 62.0f) == true)
+           && (((((((((factors[18] + factors[19]) + factors[20]) + factors[21]) + factors[22]) + factors[24]) +
+               factors[25]) + factors[26]) >= -490.0f) == true)
+           && ((factors[27] <= 62.0f) == true)
+           && ((factors[28] <= 62.0f) == true)
+           && ((factors[29] <= 62.0f) == true)
+           && ((factors[30] <= 62.0f) == true)
+           && ((factors[31] <= 62.0f) == true)
+           && ((factors[32] <= 62.0f) == true)
+           && ((factors[34] <= 62.0f) == true)
+           && ((factors[35] <= 62.0f) == true)
+           && (((((((((factors[27] + factors[28]) + factors[29]) + factors[30]) + factors[31]) + factors[32]) +
+               factors[34]) + factors[35]) >= -490.0f) == true)
+           && ((factors[36] <= 62.0f) == true)
+           && ((factors[37] <= 62.0f) == true)
+           && ((factors[38] <= 62.0f) == true)
+           && ((factors[39] <= 62.0f) == true)
+           && ((factors[40] <= 62.0f) == true)
+           && ((factors[41] <= 62.0f) == true)
+           && ((factors[43] <= 62.0f) == true)
+           && ((factors[44] <= 62.0f) == true)
+           && (((((((((factors[36] + factors[37]) + factors[38]) + factors[39]) + factors[40]) + factors[41]) +
+               factors[43]) + factors[44]) >= -490.0f) == true)
+           && ((factors[45] <= 62.0f) == true)
+           && ((factors[46] <= 62.0f) == true)
+           && ((factors[47] <= 62.0f) == true)
+           && ((factors[48] <= 62.0f) == true)
+           && ((factors[49] <= 62.0f) == true)
+           && ((factors[51] <= 62.0f) == true)
+           && ((factors[52] <= 62.0f) == true)
+           && ((factors[53] <= 62.0f) == true)
+           && (((((((((factors[45] + factors[46]) + factors[47]) + factors[48]) + factors[49]) + factors[51]) +
+               factors[52]) + factors[53]) >= -490.0f) == true)
+           && ((factors[54] <= 62.0f) == true)
+           && ((factors[55] <= 62.0f) == true)
+           && ((factors[56] <= 62.0f) == true)
+           && ((factors[58] <= 62.0f) == true)
+           && ((factors[59] <= 62.0f) == true)
+           && ((factors[60] <= 62.0f) == true)
+           && ((factors[61] <= 62.0f) == true)
+           && ((factors[62] <= 62.0f) == true)
+           && (((((((((factors[54] + factors[55]) + factors[56]) + factors[58]) + factors[59]) + factors[60]) +
+               factors[61]) + factors[62]) >= -490.0f) == true)
+           && ((factors[64] <= 62.0f) == true)
+           && ((factors[65] <= 62.0f) == true)
+           && ((factors[66] <= 62.0f) == true)
+           && ((factors[67] <= 62.0f) == true)
+           && ((factors[69] <= 62.0f) == true)
+           && ((factors[70] <= 62.0f) == true)
+           && ((factors[71] <= 62.0f) == true)
+           && ((factors[73] <= 62.0f) == true)
+           && (((((((((factors[64] + factors[65]) + factors[66]) + factors[67]) + factors[69]) + factors[70]) +
+               factors[71]) + factors[73]) >= -490.0f) == true)
+           && ((factors[74] <= 240.0f) == true)
+           && ((factors[76] <= 240.0f) == true)
+           && (((factors[74] + factors[76]) >= -490.0f) == true);
+}
+
 static quadrotor_ud_status_t quadrotor_ud_init_core(quadrotor_ud_state_t *after, const quadrotor_ud_params_t *params)
 {
     quadrotor_ud_status_t status = QUADROTOR_UD_OK;
@@ -386,19 +490,1203 @@ static quadrotor_ud_status_t quadrotor_ud_init_core(quadrotor_ud_state_t *after,
         after->rejected_pose = 0U;
 
         /* judge, then commit */
-        status = quadrotor_ud_hold_factors(after->factors);
+        if (!quadrotor_ud_is_bounded(after->factors))
+        {
+            status = quadrotor_ud_hold_factors(after->factors);
+        }
     }
     return status;
 }
 
-/* 1259 additions, 1495 multiplications, 11 divisions, 73 negations, 11 selections, cosf 3 times, sinf 3 times. */
+/* 670 additions, 1006 multiplications, 68 divisions, 16 negations, 14 selections, cosf 3 times, sinf 3 times. */
+static quadrotor_ud_status_t quadrotor_ud_predict_judged(const quadrotor_ud_state_t *before,
+                                                         quadrotor_ud_state_t *after,
+                                                         const quadrotor_ud_params_t *params, const float rotor_1,
+                                                         const float rotor_2, const float rotor_3, const float rotor_4)
+{
+    quadrotor_ud_status_t status = QUADROTOR_UD_OK;
+
+    after->rejected_pose = before->rejected_pose;
+
+    /* x, F = dx/dx and Q over one step, by euler */
+    /* x' = vx */
+    /* vx' = (sin(yaw) sin(roll) + cos(yaw) sin(pitch)) cos(roll) (5.42e-05 (rotor_1^2 + rotor_2^2 + rotor_3^2 +
+     * rotor_4^2)) */
+    /* y' = vy */
+    /* vy' = (sin(yaw) sin(pitch) - cos(yaw) sin(roll)) cos(roll) (5.42e-05 (rotor_1^2 + rotor_2^2 + rotor_3^2 +
+     * rotor_4^2)) */
+    /* z' = vz */
+    /* vz' = cos(pitch) cos(roll) (5.42e-05 (rotor_1^2 + rotor_2^2 + rotor_3^2 + rotor_4^2)) - 9.81 */
+    /* roll' = roll_rate */
+    /* roll_rate' = -0.753086419753 (pitch_rate yaw_rate) - 0.0128395061728 pitch_rate (rotor_1 - rotor_2 + rotor_3 -
+     * rotor_4) + 0.00160592592593 (rotor_3^2 - (rotor_1^2 + rotor_2^2) + rotor_4^2) */
+    /* pitch' = pitch_rate */
+    /* pitch_rate' = 0.753086419753 (roll_rate yaw_rate) + 0.0128395061728 roll_rate (rotor_1 - rotor_2 + rotor_3 -
+     * rotor_4) + 0.00160592592593 (rotor_2^2 - rotor_1^2 + rotor_3^2 - rotor_4^2) */
+    /* yaw' = yaw_rate */
+    /* yaw_rate' = 1.1e-06 (rotor_1^2 - rotor_2^2 + rotor_3^2 - rotor_4^2) / 0.0142 */
+    const float vx = before->vx;
+    after->x = before->x + (vx * 0.025f);
+    const float yaw = before->yaw;
+    const float v = quadrotor_ud_math_sin(yaw);
+    const float roll = before->roll;
+    const float v_2 = quadrotor_ud_math_sin(roll);
+    const float v_3 = quadrotor_ud_math_cos(yaw);
+    const float pitch = before->pitch;
+    const float v_4 = quadrotor_ud_math_sin(pitch);
+    const float v_5 = (v * v_2) + (v_3 * v_4);
+    const float v_6 = quadrotor_ud_math_cos(roll);
+    const float v_7 = rotor_1 * rotor_1;
+    const float v_8 = rotor_2 * rotor_2;
+    const float v_9 = v_7 + v_8;
+    const float v_10 = rotor_3 * rotor_3;
+    const float v_11 = rotor_4 * rotor_4;
+    const float v_12 = 0.0000542f * ((v_9 + v_10) + v_11);
+    const float f_3_10 = 0.025f * ((v_5 * v_6) * v_12);
+    after->vx = vx + f_3_10;
+    const float vy = before->vy;
+    after->y = before->y + (vy * 0.025f);
+    const float v_13 = v * v_4;
+    const float v_14 = v_2 * v_3;
+    const float v_15 = v_13 - v_14;
+    after->vy = vy + (0.025f * (v_12 * (v_6 * v_15)));
+    const float vz = before->vz;
+    after->z = before->z + (vz * 0.025f);
+    const float v_16 = quadrotor_ud_math_cos(pitch);
+    after->vz = vz + (0.025f * ((v_12 * (v_6 * v_16)) - 9.81f));
+    const float roll_rate = before->roll_rate;
+    after->roll = roll + (roll_rate * 0.025f);
+    const float pitch_rate = before->pitch_rate;
+    const float yaw_rate = before->yaw_rate;
+    const float v_17 = (rotor_3 + (rotor_1 - rotor_2)) - rotor_4;
+    const float v_18 = ((-((pitch_rate * yaw_rate) * 0.75308645f)) - ((pitch_rate * 0.012839506f) * v_17)) +
+        (0.001605926f * (v_11 + (v_10 - v_9)));
+    after->roll_rate = roll_rate + (0.025f * v_18);
+    after->pitch = pitch + (pitch_rate * 0.025f);
+    const float v_19 = ((0.75308645f * (roll_rate * yaw_rate)) + (v_17 * (roll_rate * 0.012839506f))) + (0.001605926f *
+        ((v_10 + (v_8 - v_7)) - v_11));
+    after->pitch_rate = pitch_rate + (0.025f * v_19);
+    after->yaw = yaw + (yaw_rate * 0.025f);
+    after->yaw_rate = yaw_rate + (0.025f * ((1.1e-6f * ((v_10 + (v_7 - v_8)) - v_11)) * 70.42254f));
+    const float f_1_6 = 0.025f * (v_12 * ((v_6 * (v * v_6)) - (v_2 * v_5)));
+    const float f_1_8 = 0.025f * (v_12 * (v_6 * (v_3 * v_16)));
+    const float f_1_10 = 0.025f * (v_12 * (v_6 * (v_14 - v_13)));
+    const float f_3_6 = -(0.025f * (v_12 * ((v_6 * (v_3 * v_6)) + (v_2 * v_15))));
+    const float f_3_8 = 0.025f * (v_12 * (v_6 * (v * v_16)));
+    const float f_5_6 = -(0.025f * (v_12 * (v_2 * v_16)));
+    const float f_5_8 = -(0.025f * (v_12 * (v_4 * v_6)));
+    const float v_20 = yaw_rate * 0.75308645f;
+    const float v_21 = 0.012839506f * v_17;
+    const float f_7_9 = 0.025f * ((-v_20) - v_21);
+    const float f_7_11 = -(pitch_rate * 0.01882716f);
+    const float f_9_7 = 0.025f * (v_20 + v_21);
+    const float f_9_11 = roll_rate * 0.01882716f;
+
+    /* U D U' = F U D U' F' + Q, by rotations of columns weighted with D and Q */
+    {
+        const float q_11_11 = params->variance_step_yaw_rate;
+        const float d_11 = before->factors[77];
+        const float t = q_11_11 + d_11;
+        after->factors[77] = t;
+        const float u_1_11 = before->factors[22];
+        const float v_22 = before->factors[11] + (0.025f * u_1_11);
+        const float per_t = 1.0f / t;
+        const float kept = d_11 * per_t;
+        after->factors[11] = v_22 * kept;
+        const float u_6_11 = before->factors[62];
+        const float u_8_11 = before->factors[71];
+        const float u_10_11 = before->factors[76];
+        const float v_23 = ((u_1_11 + (f_1_6 * u_6_11)) + (f_1_8 * u_8_11)) + (f_1_10 * u_10_11);
+        after->factors[22] = v_23 * kept;
+        const float u_3_11 = before->factors[41];
+        const float v_24 = before->factors[32] + (0.025f * u_3_11);
+        after->factors[32] = v_24 * kept;
+        const float v_25 = ((u_3_11 + (f_3_6 * u_6_11)) + (f_3_8 * u_8_11)) + (f_3_10 * u_10_11);
+        after->factors[41] = v_25 * kept;
+        const float u_5_11 = before->factors[56];
+        const float v_26 = before->factors[49] + (0.025f * u_5_11);
+        after->factors[49] = v_26 * kept;
+        const float v_27 = (u_5_11 + (f_5_6 * u_6_11)) + (f_5_8 * u_8_11);
+        after->factors[56] = v_27 * kept;
+        const float u_7_11 = before->factors[67];
+        const float v_28 = u_6_11 + (0.025f * u_7_11);
+        after->factors[62] = v_28 * kept;
+        const float u_9_11 = before->factors[74];
+        const float v_29 = f_7_11 + (u_7_11 + (f_7_9 * u_9_11));
+        after->factors[67] = v_29 * kept;
+        const float v_30 = u_8_11 + (0.025f * u_9_11);
+        after->factors[71] = v_30 * kept;
+        const float v_31 = f_9_11 + (u_9_11 + (f_9_7 * u_7_11));
+        after->factors[74] = v_31 * kept;
+        const float v_32 = 0.025f + u_10_11;
+        after->factors[76] = v_32 * kept;
+        const float q_10_10 = params->variance_step_yaw;
+        const float d_10 = before->factors[75];
+        const float w = q_11_11 * kept;
+        const float v_33 = v_32 * w;
+        const float t_2 = d_10 + (v_32 * v_33);
+        const float t_3 = q_10_10 + t_2;
+        after->factors[75] = t_3;
+        const float u_1_10 = before->factors[21];
+        const float v_34 = before->factors[10] + (0.025f * u_1_10);
+        const float per_t_2 = 1.0f / t_2;
+        const float gain = v_33 * per_t_2;
+        const float v_35 = (v_34 * v_32) - v_22;
+        const float v_36 = v_34 - (gain * v_35);
+        const float per_t_3 = 1.0f / t_3;
+        const float kept_2 = t_2 * per_t_3;
+        after->factors[10] = v_36 * kept_2;
+        const float u_6_10 = before->factors[61];
+        const float u_8_10 = before->factors[70];
+        const float v_37 = f_1_10 + ((u_1_10 + (f_1_6 * u_6_10)) + (f_1_8 * u_8_10));
+        const float v_38 = (v_37 * v_32) - v_23;
+        const float v_39 = v_37 - (gain * v_38);
+        after->factors[21] = v_39 * kept_2;
+        const float u_3_10 = before->factors[40];
+        const float v_40 = before->factors[31] + (0.025f * u_3_10);
+        const float v_41 = (v_40 * v_32) - v_24;
+        const float v_42 = v_40 - (gain * v_41);
+        after->factors[31] = v_42 * kept_2;
+        const float v_43 = f_3_10 + ((u_3_10 + (f_3_6 * u_6_10)) + (f_3_8 * u_8_10));
+        const float v_44 = (v_43 * v_32) - v_25;
+        const float v_45 = v_43 - (gain * v_44);
+        after->factors[40] = v_45 * kept_2;
+        const float u_5_10 = before->factors[55];
+        const float v_46 = before->factors[48] + (0.025f * u_5_10);
+        const float v_47 = (v_46 * v_32) - v_26;
+        const float v_48 = v_46 - (gain * v_47);
+        after->factors[48] = v_48 * kept_2;
+        const float v_49 = (u_5_10 + (f_5_6 * u_6_10)) + (f_5_8 * u_8_10);
+        const float v_50 = (v_49 * v_32) - v_27;
+        const float v_51 = v_49 - (gain * v_50);
+        after->factors[55] = v_51 * kept_2;
+        const float u_7_10 = before->factors[66];
+        const float v_52 = u_6_10 + (0.025f * u_7_10);
+        const float v_53 = (v_52 * v_32) - v_28;
+        const float v_54 = v_52 - (gain * v_53);
+        after->factors[61] = v_54 * kept_2;
+        const float u_9_10 = before->factors[73];
+        const float v_55 = u_7_10 + (f_7_9 * u_9_10);
+        const float v_56 = (v_55 * v_32) - v_29;
+        const float v_57 = v_55 - (gain * v_56);
+        after->factors[66] = v_57 * kept_2;
+        const float v_58 = u_8_10 + (0.025f * u_9_10);
+        const float v_59 = (v_58 * v_32) - v_30;
+        const float v_60 = v_58 - (gain * v_59);
+        after->factors[70] = v_60 * kept_2;
+        const float v_61 = u_9_10 + (f_9_7 * u_7_10);
+        const float v_62 = (v_61 * v_32) - v_31;
+        const float v_63 = v_61 - (gain * v_62);
+        after->factors[73] = v_63 * kept_2;
+        const float q_9_9 = params->variance_step_pitch_rate;
+        const float d_7 = before->factors[63];
+        const float v_64 = f_9_7 * d_7;
+        const float t_4 = q_9_9 + (f_9_7 * v_64);
+        const float u_7_8 = before->factors[64];
+        const float v_65 = f_9_7 * u_7_8;
+        const float d_8 = before->factors[68];
+        const float v_66 = d_8 * v_65;
+        const float t_5 = t_4 + (v_65 * v_66);
+        const float u_7_9 = before->factors[65];
+        const float v_67 = 1.0f + (f_9_7 * u_7_9);
+        const float d_9 = before->factors[72];
+        const float v_68 = d_9 * v_67;
+        const float t_6 = t_5 + (v_67 * v_68);
+        const float kept_3 = d_10 * per_t_2;
+        const float w_2 = w * kept_3;
+        const float v_69 = w_2 * v_62;
+        const float t_7 = t_6 + (v_62 * v_69);
+        const float w_3 = q_10_10 * kept_2;
+        const float v_70 = v_63 * w_3;
+        const float t_8 = t_7 + (v_63 * v_70);
+        after->factors[72] = t_8;
+        const float u_1_7 = before->factors[18];
+        const float v_71 = before->factors[7] + (0.025f * u_1_7);
+        const float per_t_4 = 1.0f / ((t_4 >= 1.0e-30f) ? t_4 : 1.0f);
+        const float gain_2 = v_64 * per_t_4;
+        const float v_72 = v_71 * gain_2;
+        const float per_t_5 = 1.0f / ((t_5 >= 1.0e-30f) ? t_5 : 1.0f);
+        const float gain_3 = v_66 * per_t_5;
+        const float u_1_8 = before->factors[19];
+        const float v_73 = (v_65 * v_72) - (before->factors[8] + (0.025f * u_1_8));
+        const float v_74 = v_72 - (gain_3 * v_73);
+        const float per_t_6 = 1.0f / ((t_6 >= 1.0e-30f) ? t_6 : 1.0f);
+        const float gain_4 = v_68 * per_t_6;
+        const float u_1_9 = before->factors[20];
+        const float v_75 = (v_67 * v_74) - (before->factors[9] + (0.025f * u_1_9));
+        const float v_76 = v_74 - (gain_4 * v_75);
+        const float per_t_7 = 1.0f / ((t_7 >= 1.0e-30f) ? t_7 : 1.0f);
+        const float gain_5 = v_69 * per_t_7;
+        const float v_77 = (v_62 * v_76) - v_35;
+        const float v_78 = v_76 - (gain_5 * v_77);
+        const float per_t_8 = 1.0f / ((t_8 >= 1.0e-30f) ? t_8 : 1.0f);
+        const float gain_6 = v_70 * per_t_8;
+        const float v_79 = (v_63 * v_78) - v_36;
+        after->factors[9] = v_78 - (gain_6 * v_79);
+        const float u_6_7 = before->factors[58];
+        const float v_80 = u_1_7 + (f_1_6 * u_6_7);
+        const float v_81 = v_80 * gain_2;
+        const float u_6_8 = before->factors[59];
+        const float v_82 = (v_65 * v_81) - (f_1_8 + (u_1_8 + (f_1_6 * u_6_8)));
+        const float v_83 = v_81 - (gain_3 * v_82);
+        const float u_6_9 = before->factors[60];
+        const float u_8_9 = before->factors[69];
+        const float v_84 = (v_67 * v_83) - ((u_1_9 + (f_1_6 * u_6_9)) + (f_1_8 * u_8_9));
+        const float v_85 = v_83 - (gain_4 * v_84);
+        const float v_86 = (v_62 * v_85) - v_38;
+        const float v_87 = v_85 - (gain_5 * v_86);
+        const float v_88 = (v_63 * v_87) - v_39;
+        after->factors[20] = v_87 - (gain_6 * v_88);
+        const float u_3_7 = before->factors[37];
+        const float v_89 = before->factors[28] + (0.025f * u_3_7);
+        const float v_90 = v_89 * gain_2;
+        const float u_3_8 = before->factors[38];
+        const float v_91 = (v_65 * v_90) - (before->factors[29] + (0.025f * u_3_8));
+        const float v_92 = v_90 - (gain_3 * v_91);
+        const float u_3_9 = before->factors[39];
+        const float v_93 = (v_67 * v_92) - (before->factors[30] + (0.025f * u_3_9));
+        const float v_94 = v_92 - (gain_4 * v_93);
+        const float v_95 = (v_62 * v_94) - v_41;
+        const float v_96 = v_94 - (gain_5 * v_95);
+        const float v_97 = (v_63 * v_96) - v_42;
+        after->factors[30] = v_96 - (gain_6 * v_97);
+        const float v_98 = u_3_7 + (f_3_6 * u_6_7);
+        const float v_99 = v_98 * gain_2;
+        const float v_100 = (v_65 * v_99) - (f_3_8 + (u_3_8 + (f_3_6 * u_6_8)));
+        const float v_101 = v_99 - (gain_3 * v_100);
+        const float v_102 = (v_67 * v_101) - ((u_3_9 + (f_3_6 * u_6_9)) + (f_3_8 * u_8_9));
+        const float v_103 = v_101 - (gain_4 * v_102);
+        const float v_104 = (v_62 * v_103) - v_44;
+        const float v_105 = v_103 - (gain_5 * v_104);
+        const float v_106 = (v_63 * v_105) - v_45;
+        after->factors[39] = v_105 - (gain_6 * v_106);
+        const float u_5_7 = before->factors[52];
+        const float v_107 = before->factors[45] + (0.025f * u_5_7);
+        const float v_108 = v_107 * gain_2;
+        const float u_5_8 = before->factors[53];
+        const float v_109 = (v_65 * v_108) - (before->factors[46] + (0.025f * u_5_8));
+        const float v_110 = v_108 - (gain_3 * v_109);
+        const float u_5_9 = before->factors[54];
+        const float v_111 = (v_67 * v_110) - (before->factors[47] + (0.025f * u_5_9));
+        const float v_112 = v_110 - (gain_4 * v_111);
+        const float v_113 = (v_62 * v_112) - v_47;
+        const float v_114 = v_112 - (gain_5 * v_113);
+        const float v_115 = (v_63 * v_114) - v_48;
+        after->factors[47] = v_114 - (gain_6 * v_115);
+        const float v_116 = u_5_7 + (f_5_6 * u_6_7);
+        const float v_117 = v_116 * gain_2;
+        const float v_118 = (v_65 * v_117) - (f_5_8 + (u_5_8 + (f_5_6 * u_6_8)));
+        const float v_119 = v_117 - (gain_3 * v_118);
+        const float v_120 = (v_67 * v_119) - ((u_5_9 + (f_5_6 * u_6_9)) + (f_5_8 * u_8_9));
+        const float v_121 = v_119 - (gain_4 * v_120);
+        const float v_122 = (v_62 * v_121) - v_50;
+        const float v_123 = v_121 - (gain_5 * v_122);
+        const float v_124 = (v_63 * v_123) - v_51;
+        after->factors[54] = v_123 - (gain_6 * v_124);
+        const float v_125 = 0.025f + u_6_7;
+        const float v_126 = v_125 * gain_2;
+        const float v_127 = (v_65 * v_126) - (u_6_8 + (0.025f * u_7_8));
+        const float v_128 = v_126 - (gain_3 * v_127);
+        const float v_129 = (v_67 * v_128) - (u_6_9 + (0.025f * u_7_9));
+        const float v_130 = v_128 - (gain_4 * v_129);
+        const float v_131 = (v_62 * v_130) - v_53;
+        const float v_132 = v_130 - (gain_5 * v_131);
+        const float v_133 = (v_63 * v_132) - v_54;
+        after->factors[60] = v_132 - (gain_6 * v_133);
+        const float v_134 = (v_65 * gain_2) - u_7_8;
+        const float v_135 = gain_2 - (gain_3 * v_134);
+        const float v_136 = (v_67 * v_135) - (f_7_9 + u_7_9);
+        const float v_137 = v_135 - (gain_4 * v_136);
+        const float v_138 = (v_62 * v_137) - v_56;
+        const float v_139 = v_137 - (gain_5 * v_138);
+        const float v_140 = (v_63 * v_139) - v_57;
+        after->factors[65] = v_139 - (gain_6 * v_140);
+        const float v_141 = (v_67 * gain_3) - (0.025f + u_8_9);
+        const float v_142 = gain_3 - (gain_4 * v_141);
+        const float v_143 = (v_62 * v_142) - v_59;
+        const float v_144 = v_142 - (gain_5 * v_143);
+        const float v_145 = (v_63 * v_144) - v_60;
+        after->factors[69] = v_144 - (gain_6 * v_145);
+        const float q_8_8 = params->variance_step_pitch;
+        const float kept_4 = t_4 * per_t_5;
+        const float w_4 = d_8 * kept_4;
+        const float t_9 = q_8_8 + w_4;
+        const float kept_5 = t_5 * per_t_6;
+        const float w_5 = d_9 * kept_5;
+        const float v_146 = w_5 * v_141;
+        const float t_10 = t_9 + (v_141 * v_146);
+        const float kept_6 = t_6 * per_t_7;
+        const float w_6 = w_2 * kept_6;
+        const float v_147 = w_6 * v_143;
+        const float t_11 = t_10 + (v_143 * v_147);
+        const float kept_7 = t_7 * per_t_8;
+        const float w_7 = w_3 * kept_7;
+        const float v_148 = w_7 * v_145;
+        const float t_12 = t_11 + (v_145 * v_148);
+        after->factors[68] = t_12;
+        const float per_t_9 = 1.0f / ((t_9 >= 1.0e-30f) ? t_9 : 1.0f);
+        const float gain_7 = (-w_4) * per_t_9;
+        const float v_149 = v_73 * gain_7;
+        const float per_t_10 = 1.0f / ((t_10 >= 1.0e-30f) ? t_10 : 1.0f);
+        const float gain_8 = v_146 * per_t_10;
+        const float v_150 = (v_141 * v_149) - v_75;
+        const float v_151 = v_149 - (gain_8 * v_150);
+        const float per_t_11 = 1.0f / ((t_11 >= 1.0e-30f) ? t_11 : 1.0f);
+        const float gain_9 = v_147 * per_t_11;
+        const float v_152 = (v_143 * v_151) - v_77;
+        const float v_153 = v_151 - (gain_9 * v_152);
+        const float per_t_12 = 1.0f / ((t_12 >= 1.0e-30f) ? t_12 : 1.0f);
+        const float gain_10 = v_148 * per_t_12;
+        const float v_154 = (v_145 * v_153) - v_79;
+        after->factors[8] = v_153 - (gain_10 * v_154);
+        const float v_155 = v_82 * gain_7;
+        const float v_156 = (v_141 * v_155) - v_84;
+        const float v_157 = v_155 - (gain_8 * v_156);
+        const float v_158 = (v_143 * v_157) - v_86;
+        const float v_159 = v_157 - (gain_9 * v_158);
+        const float v_160 = (v_145 * v_159) - v_88;
+        after->factors[19] = v_159 - (gain_10 * v_160);
+        const float v_161 = v_91 * gain_7;
+        const float v_162 = (v_141 * v_161) - v_93;
+        const float v_163 = v_161 - (gain_8 * v_162);
+        const float v_164 = (v_143 * v_163) - v_95;
+        const float v_165 = v_163 - (gain_9 * v_164);
+        const float v_166 = (v_145 * v_165) - v_97;
+        after->factors[29] = v_165 - (gain_10 * v_166);
+        const float v_167 = v_100 * gain_7;
+        const float v_168 = (v_141 * v_167) - v_102;
+        const float v_169 = v_167 - (gain_8 * v_168);
+        const float v_170 = (v_143 * v_169) - v_104;
+        const float v_171 = v_169 - (gain_9 * v_170);
+        const float v_172 = (v_145 * v_171) - v_106;
+        after->factors[38] = v_171 - (gain_10 * v_172);
+        const float v_173 = v_109 * gain_7;
+        const float v_174 = (v_141 * v_173) - v_111;
+        const float v_175 = v_173 - (gain_8 * v_174);
+        const float v_176 = (v_143 * v_175) - v_113;
+        const float v_177 = v_175 - (gain_9 * v_176);
+        const float v_178 = (v_145 * v_177) - v_115;
+        after->factors[46] = v_177 - (gain_10 * v_178);
+        const float v_179 = v_118 * gain_7;
+        const float v_180 = (v_141 * v_179) - v_120;
+        const float v_181 = v_179 - (gain_8 * v_180);
+        const float v_182 = (v_143 * v_181) - v_122;
+        const float v_183 = v_181 - (gain_9 * v_182);
+        const float v_184 = (v_145 * v_183) - v_124;
+        after->factors[53] = v_183 - (gain_10 * v_184);
+        const float v_185 = v_127 * gain_7;
+        const float v_186 = (v_141 * v_185) - v_129;
+        const float v_187 = v_185 - (gain_8 * v_186);
+        const float v_188 = (v_143 * v_187) - v_131;
+        const float v_189 = v_187 - (gain_9 * v_188);
+        const float v_190 = (v_145 * v_189) - v_133;
+        after->factors[59] = v_189 - (gain_10 * v_190);
+        const float v_191 = v_134 * gain_7;
+        const float v_192 = (v_141 * v_191) - v_136;
+        const float v_193 = v_191 - (gain_8 * v_192);
+        const float v_194 = (v_143 * v_193) - v_138;
+        const float v_195 = v_193 - (gain_9 * v_194);
+        const float v_196 = (v_145 * v_195) - v_140;
+        after->factors[64] = v_195 - (gain_10 * v_196);
+        const float q_7_7 = params->variance_step_roll_rate;
+        const float kept_8 = q_9_9 * per_t_4;
+        const float w_8 = d_7 * kept_8;
+        const float t_13 = q_7_7 + w_8;
+        const float v_197 = -v_134;
+        const float kept_9 = q_8_8 * per_t_9;
+        const float w_9 = w_4 * kept_9;
+        const float v_198 = w_9 * v_197;
+        const float t_14 = t_13 + (v_197 * v_198);
+        const float kept_10 = t_9 * per_t_10;
+        const float w_10 = w_5 * kept_10;
+        const float v_199 = w_10 * v_192;
+        const float t_15 = t_14 + (v_192 * v_199);
+        const float kept_11 = t_10 * per_t_11;
+        const float w_11 = w_6 * kept_11;
+        const float v_200 = w_11 * v_194;
+        const float t_16 = t_15 + (v_194 * v_200);
+        const float kept_12 = t_11 * per_t_12;
+        const float w_12 = w_7 * kept_12;
+        const float v_201 = w_12 * v_196;
+        const float t_17 = t_16 + (v_196 * v_201);
+        after->factors[63] = t_17;
+        const float per_t_13 = 1.0f / ((t_13 >= 1.0e-30f) ? t_13 : 1.0f);
+        const float gain_11 = (-w_8) * per_t_13;
+        const float v_202 = (-v_71) * gain_11;
+        const float per_t_14 = 1.0f / ((t_14 >= 1.0e-30f) ? t_14 : 1.0f);
+        const float gain_12 = v_198 * per_t_14;
+        const float v_203 = v_73 + (v_197 * v_202);
+        const float v_204 = v_202 - (gain_12 * v_203);
+        const float per_t_15 = 1.0f / ((t_15 >= 1.0e-30f) ? t_15 : 1.0f);
+        const float gain_13 = v_199 * per_t_15;
+        const float v_205 = (v_192 * v_204) - v_150;
+        const float v_206 = v_204 - (gain_13 * v_205);
+        const float per_t_16 = 1.0f / ((t_16 >= 1.0e-30f) ? t_16 : 1.0f);
+        const float gain_14 = v_200 * per_t_16;
+        const float v_207 = (v_194 * v_206) - v_152;
+        const float v_208 = v_206 - (gain_14 * v_207);
+        const float per_t_17 = 1.0f / ((t_17 >= 1.0e-30f) ? t_17 : 1.0f);
+        const float gain_15 = v_201 * per_t_17;
+        const float v_209 = (v_196 * v_208) - v_154;
+        after->factors[7] = v_208 - (gain_15 * v_209);
+        const float v_210 = (-v_80) * gain_11;
+        const float v_211 = v_82 + (v_197 * v_210);
+        const float v_212 = v_210 - (gain_12 * v_211);
+        const float v_213 = (v_192 * v_212) - v_156;
+        const float v_214 = v_212 - (gain_13 * v_213);
+        const float v_215 = (v_194 * v_214) - v_158;
+        const float v_216 = v_214 - (gain_14 * v_215);
+        const float v_217 = (v_196 * v_216) - v_160;
+        after->factors[18] = v_216 - (gain_15 * v_217);
+        const float v_218 = (-v_89) * gain_11;
+        const float v_219 = v_91 + (v_197 * v_218);
+        const float v_220 = v_218 - (gain_12 * v_219);
+        const float v_221 = (v_192 * v_220) - v_162;
+        const float v_222 = v_220 - (gain_13 * v_221);
+        const float v_223 = (v_194 * v_222) - v_164;
+        const float v_224 = v_222 - (gain_14 * v_223);
+        const float v_225 = (v_196 * v_224) - v_166;
+        after->factors[28] = v_224 - (gain_15 * v_225);
+        const float v_226 = (-v_98) * gain_11;
+        const float v_227 = v_100 + (v_197 * v_226);
+        const float v_228 = v_226 - (gain_12 * v_227);
+        const float v_229 = (v_192 * v_228) - v_168;
+        const float v_230 = v_228 - (gain_13 * v_229);
+        const float v_231 = (v_194 * v_230) - v_170;
+        const float v_232 = v_230 - (gain_14 * v_231);
+        const float v_233 = (v_196 * v_232) - v_172;
+        after->factors[37] = v_232 - (gain_15 * v_233);
+        const float v_234 = (-v_107) * gain_11;
+        const float v_235 = v_109 + (v_197 * v_234);
+        const float v_236 = v_234 - (gain_12 * v_235);
+        const float v_237 = (v_192 * v_236) - v_174;
+        const float v_238 = v_236 - (gain_13 * v_237);
+        const float v_239 = (v_194 * v_238) - v_176;
+        const float v_240 = v_238 - (gain_14 * v_239);
+        const float v_241 = (v_196 * v_240) - v_178;
+        after->factors[45] = v_240 - (gain_15 * v_241);
+        const float v_242 = (-v_116) * gain_11;
+        const float v_243 = v_118 + (v_197 * v_242);
+        const float v_244 = v_242 - (gain_12 * v_243);
+        const float v_245 = (v_192 * v_244) - v_180;
+        const float v_246 = v_244 - (gain_13 * v_245);
+        const float v_247 = (v_194 * v_246) - v_182;
+        const float v_248 = v_246 - (gain_14 * v_247);
+        const float v_249 = (v_196 * v_248) - v_184;
+        after->factors[52] = v_248 - (gain_15 * v_249);
+        const float v_250 = (-v_125) * gain_11;
+        const float v_251 = v_127 + (v_197 * v_250);
+        const float v_252 = v_250 - (gain_12 * v_251);
+        const float v_253 = (v_192 * v_252) - v_186;
+        const float v_254 = v_252 - (gain_13 * v_253);
+        const float v_255 = (v_194 * v_254) - v_188;
+        const float v_256 = v_254 - (gain_14 * v_255);
+        const float v_257 = (v_196 * v_256) - v_190;
+        after->factors[58] = v_256 - (gain_15 * v_257);
+        const float q_6_6 = params->variance_step_roll;
+        const float d_6 = before->factors[57];
+        const float kept_13 = q_7_7 * per_t_13;
+        const float w_13 = w_8 * kept_13;
+        const float v_258 = v_125 * w_13;
+        const float t_18 = d_6 + (v_125 * v_258);
+        const float kept_14 = t_13 * per_t_14;
+        const float w_14 = w_9 * kept_14;
+        const float v_259 = w_14 * v_251;
+        const float t_19 = t_18 + (v_251 * v_259);
+        const float kept_15 = t_14 * per_t_15;
+        const float w_15 = w_10 * kept_15;
+        const float v_260 = w_15 * v_253;
+        const float t_20 = t_19 + (v_253 * v_260);
+        const float kept_16 = t_15 * per_t_16;
+        const float w_16 = w_11 * kept_16;
+        const float v_261 = w_16 * v_255;
+        const float t_21 = t_20 + (v_255 * v_261);
+        const float kept_17 = t_16 * per_t_17;
+        const float w_17 = w_12 * kept_17;
+        const float v_262 = w_17 * v_257;
+        const float t_22 = t_21 + (v_257 * v_262);
+        const float t_23 = q_6_6 + t_22;
+        after->factors[57] = t_23;
+        const float u_1_6 = before->factors[17];
+        const float v_263 = before->factors[6] + (0.025f * u_1_6);
+        const float per_t_18 = 1.0f / t_18;
+        const float gain_16 = v_258 * per_t_18;
+        const float v_264 = (v_263 * v_125) - v_71;
+        const float v_265 = v_263 - (gain_16 * v_264);
+        const float per_t_19 = 1.0f / t_19;
+        const float gain_17 = v_259 * per_t_19;
+        const float v_266 = (v_251 * v_265) - v_203;
+        const float v_267 = v_265 - (gain_17 * v_266);
+        const float per_t_20 = 1.0f / t_20;
+        const float gain_18 = v_260 * per_t_20;
+        const float v_268 = (v_253 * v_267) - v_205;
+        const float v_269 = v_267 - (gain_18 * v_268);
+        const float per_t_21 = 1.0f / t_21;
+        const float gain_19 = v_261 * per_t_21;
+        const float v_270 = (v_255 * v_269) - v_207;
+        const float v_271 = v_269 - (gain_19 * v_270);
+        const float per_t_22 = 1.0f / t_22;
+        const float gain_20 = v_262 * per_t_22;
+        const float v_272 = (v_257 * v_271) - v_209;
+        const float v_273 = v_271 - (gain_20 * v_272);
+        const float per_t_23 = 1.0f / t_23;
+        const float kept_18 = t_22 * per_t_23;
+        after->factors[6] = v_273 * kept_18;
+        const float v_274 = f_1_6 + u_1_6;
+        const float v_275 = (v_274 * v_125) - v_80;
+        const float v_276 = v_274 - (gain_16 * v_275);
+        const float v_277 = (v_251 * v_276) - v_211;
+        const float v_278 = v_276 - (gain_17 * v_277);
+        const float v_279 = (v_253 * v_278) - v_213;
+        const float v_280 = v_278 - (gain_18 * v_279);
+        const float v_281 = (v_255 * v_280) - v_215;
+        const float v_282 = v_280 - (gain_19 * v_281);
+        const float v_283 = (v_257 * v_282) - v_217;
+        const float v_284 = v_282 - (gain_20 * v_283);
+        after->factors[17] = v_284 * kept_18;
+        const float u_3_6 = before->factors[36];
+        const float v_285 = before->factors[27] + (0.025f * u_3_6);
+        const float v_286 = (v_285 * v_125) - v_89;
+        const float v_287 = v_285 - (gain_16 * v_286);
+        const float v_288 = (v_251 * v_287) - v_219;
+        const float v_289 = v_287 - (gain_17 * v_288);
+        const float v_290 = (v_253 * v_289) - v_221;
+        const float v_291 = v_289 - (gain_18 * v_290);
+        const float v_292 = (v_255 * v_291) - v_223;
+        const float v_293 = v_291 - (gain_19 * v_292);
+        const float v_294 = (v_257 * v_293) - v_225;
+        const float v_295 = v_293 - (gain_20 * v_294);
+        after->factors[27] = v_295 * kept_18;
+        const float v_296 = f_3_6 + u_3_6;
+        const float v_297 = (v_296 * v_125) - v_98;
+        const float v_298 = v_296 - (gain_16 * v_297);
+        const float v_299 = (v_251 * v_298) - v_227;
+        const float v_300 = v_298 - (gain_17 * v_299);
+        const float v_301 = (v_253 * v_300) - v_229;
+        const float v_302 = v_300 - (gain_18 * v_301);
+        const float v_303 = (v_255 * v_302) - v_231;
+        const float v_304 = v_302 - (gain_19 * v_303);
+        const float v_305 = (v_257 * v_304) - v_233;
+        const float v_306 = v_304 - (gain_20 * v_305);
+        after->factors[36] = v_306 * kept_18;
+        const float u_5_6 = before->factors[51];
+        const float v_307 = before->factors[44] + (0.025f * u_5_6);
+        const float v_308 = (v_307 * v_125) - v_107;
+        const float v_309 = v_307 - (gain_16 * v_308);
+        const float v_310 = (v_251 * v_309) - v_235;
+        const float v_311 = v_309 - (gain_17 * v_310);
+        const float v_312 = (v_253 * v_311) - v_237;
+        const float v_313 = v_311 - (gain_18 * v_312);
+        const float v_314 = (v_255 * v_313) - v_239;
+        const float v_315 = v_313 - (gain_19 * v_314);
+        const float v_316 = (v_257 * v_315) - v_241;
+        const float v_317 = v_315 - (gain_20 * v_316);
+        after->factors[44] = v_317 * kept_18;
+        const float v_318 = f_5_6 + u_5_6;
+        const float v_319 = (v_318 * v_125) - v_116;
+        const float v_320 = v_318 - (gain_16 * v_319);
+        const float v_321 = (v_251 * v_320) - v_243;
+        const float v_322 = v_320 - (gain_17 * v_321);
+        const float v_323 = (v_253 * v_322) - v_245;
+        const float v_324 = v_322 - (gain_18 * v_323);
+        const float v_325 = (v_255 * v_324) - v_247;
+        const float v_326 = v_324 - (gain_19 * v_325);
+        const float v_327 = (v_257 * v_326) - v_249;
+        const float v_328 = v_326 - (gain_20 * v_327);
+        after->factors[51] = v_328 * kept_18;
+        const float q_5_5 = params->variance_step_vz;
+        const float d_5 = before->factors[50];
+        const float kept_19 = d_6 * per_t_18;
+        const float w_18 = w_13 * kept_19;
+        const float v_329 = w_18 * v_319;
+        const float t_24 = d_5 + (v_319 * v_329);
+        const float kept_20 = t_18 * per_t_19;
+        const float w_19 = w_14 * kept_20;
+        const float v_330 = w_19 * v_321;
+        const float t_25 = t_24 + (v_321 * v_330);
+        const float kept_21 = t_19 * per_t_20;
+        const float w_20 = w_15 * kept_21;
+        const float v_331 = w_20 * v_323;
+        const float t_26 = t_25 + (v_323 * v_331);
+        const float kept_22 = t_20 * per_t_21;
+        const float w_21 = w_16 * kept_22;
+        const float v_332 = w_21 * v_325;
+        const float t_27 = t_26 + (v_325 * v_332);
+        const float kept_23 = t_21 * per_t_22;
+        const float w_22 = w_17 * kept_23;
+        const float v_333 = w_22 * v_327;
+        const float t_28 = t_27 + (v_327 * v_333);
+        const float w_23 = q_6_6 * kept_18;
+        const float v_334 = v_328 * w_23;
+        const float t_29 = t_28 + (v_328 * v_334);
+        const float t_30 = q_5_5 + t_29;
+        after->factors[50] = t_30;
+        const float u_1_5 = before->factors[16];
+        const float v_335 = before->factors[5] + (0.025f * u_1_5);
+        const float per_t_24 = 1.0f / t_24;
+        const float gain_21 = v_329 * per_t_24;
+        const float v_336 = (v_335 * v_319) - v_264;
+        const float v_337 = v_335 - (gain_21 * v_336);
+        const float per_t_25 = 1.0f / t_25;
+        const float gain_22 = v_330 * per_t_25;
+        const float v_338 = (v_321 * v_337) - v_266;
+        const float v_339 = v_337 - (gain_22 * v_338);
+        const float per_t_26 = 1.0f / t_26;
+        const float gain_23 = v_331 * per_t_26;
+        const float v_340 = (v_323 * v_339) - v_268;
+        const float v_341 = v_339 - (gain_23 * v_340);
+        const float per_t_27 = 1.0f / t_27;
+        const float gain_24 = v_332 * per_t_27;
+        const float v_342 = (v_325 * v_341) - v_270;
+        const float v_343 = v_341 - (gain_24 * v_342);
+        const float per_t_28 = 1.0f / t_28;
+        const float gain_25 = v_333 * per_t_28;
+        const float v_344 = (v_327 * v_343) - v_272;
+        const float v_345 = v_343 - (gain_25 * v_344);
+        const float per_t_29 = 1.0f / t_29;
+        const float gain_26 = v_334 * per_t_29;
+        const float v_346 = (v_328 * v_345) - v_273;
+        const float v_347 = v_345 - (gain_26 * v_346);
+        const float per_t_30 = 1.0f / t_30;
+        const float kept_24 = t_29 * per_t_30;
+        after->factors[5] = v_347 * kept_24;
+        const float v_348 = (u_1_5 * v_319) - v_275;
+        const float v_349 = u_1_5 - (gain_21 * v_348);
+        const float v_350 = (v_321 * v_349) - v_277;
+        const float v_351 = v_349 - (gain_22 * v_350);
+        const float v_352 = (v_323 * v_351) - v_279;
+        const float v_353 = v_351 - (gain_23 * v_352);
+        const float v_354 = (v_325 * v_353) - v_281;
+        const float v_355 = v_353 - (gain_24 * v_354);
+        const float v_356 = (v_327 * v_355) - v_283;
+        const float v_357 = v_355 - (gain_25 * v_356);
+        const float v_358 = (v_328 * v_357) - v_284;
+        const float v_359 = v_357 - (gain_26 * v_358);
+        after->factors[16] = v_359 * kept_24;
+        const float u_3_5 = before->factors[35];
+        const float v_360 = before->factors[26] + (0.025f * u_3_5);
+        const float v_361 = (v_360 * v_319) - v_286;
+        const float v_362 = v_360 - (gain_21 * v_361);
+        const float v_363 = (v_321 * v_362) - v_288;
+        const float v_364 = v_362 - (gain_22 * v_363);
+        const float v_365 = (v_323 * v_364) - v_290;
+        const float v_366 = v_364 - (gain_23 * v_365);
+        const float v_367 = (v_325 * v_366) - v_292;
+        const float v_368 = v_366 - (gain_24 * v_367);
+        const float v_369 = (v_327 * v_368) - v_294;
+        const float v_370 = v_368 - (gain_25 * v_369);
+        const float v_371 = (v_328 * v_370) - v_295;
+        const float v_372 = v_370 - (gain_26 * v_371);
+        after->factors[26] = v_372 * kept_24;
+        const float v_373 = (u_3_5 * v_319) - v_297;
+        const float v_374 = u_3_5 - (gain_21 * v_373);
+        const float v_375 = (v_321 * v_374) - v_299;
+        const float v_376 = v_374 - (gain_22 * v_375);
+        const float v_377 = (v_323 * v_376) - v_301;
+        const float v_378 = v_376 - (gain_23 * v_377);
+        const float v_379 = (v_325 * v_378) - v_303;
+        const float v_380 = v_378 - (gain_24 * v_379);
+        const float v_381 = (v_327 * v_380) - v_305;
+        const float v_382 = v_380 - (gain_25 * v_381);
+        const float v_383 = (v_328 * v_382) - v_306;
+        const float v_384 = v_382 - (gain_26 * v_383);
+        after->factors[35] = v_384 * kept_24;
+        const float v_385 = 0.025f + before->factors[43];
+        const float v_386 = (v_385 * v_319) - v_308;
+        const float v_387 = v_385 - (gain_21 * v_386);
+        const float v_388 = (v_321 * v_387) - v_310;
+        const float v_389 = v_387 - (gain_22 * v_388);
+        const float v_390 = (v_323 * v_389) - v_312;
+        const float v_391 = v_389 - (gain_23 * v_390);
+        const float v_392 = (v_325 * v_391) - v_314;
+        const float v_393 = v_391 - (gain_24 * v_392);
+        const float v_394 = (v_327 * v_393) - v_316;
+        const float v_395 = v_393 - (gain_25 * v_394);
+        const float v_396 = (v_328 * v_395) - v_317;
+        const float v_397 = v_395 - (gain_26 * v_396);
+        after->factors[43] = v_397 * kept_24;
+        const float q_4_4 = params->variance_step_z;
+        const float d_4 = before->factors[42];
+        const float kept_25 = d_5 * per_t_24;
+        const float w_24 = w_18 * kept_25;
+        const float v_398 = w_24 * v_386;
+        const float t_31 = d_4 + (v_386 * v_398);
+        const float kept_26 = t_24 * per_t_25;
+        const float w_25 = w_19 * kept_26;
+        const float v_399 = w_25 * v_388;
+        const float t_32 = t_31 + (v_388 * v_399);
+        const float kept_27 = t_25 * per_t_26;
+        const float w_26 = w_20 * kept_27;
+        const float v_400 = w_26 * v_390;
+        const float t_33 = t_32 + (v_390 * v_400);
+        const float kept_28 = t_26 * per_t_27;
+        const float w_27 = w_21 * kept_28;
+        const float v_401 = w_27 * v_392;
+        const float t_34 = t_33 + (v_392 * v_401);
+        const float kept_29 = t_27 * per_t_28;
+        const float w_28 = w_22 * kept_29;
+        const float v_402 = w_28 * v_394;
+        const float t_35 = t_34 + (v_394 * v_402);
+        const float kept_30 = t_28 * per_t_29;
+        const float w_29 = w_23 * kept_30;
+        const float v_403 = w_29 * v_396;
+        const float t_36 = t_35 + (v_396 * v_403);
+        const float w_30 = q_5_5 * kept_24;
+        const float v_404 = v_397 * w_30;
+        const float t_37 = t_36 + (v_397 * v_404);
+        const float t_38 = q_4_4 + t_37;
+        after->factors[42] = t_38;
+        const float u_1_4 = before->factors[15];
+        const float v_405 = before->factors[4] + (0.025f * u_1_4);
+        const float per_t_31 = 1.0f / t_31;
+        const float gain_27 = v_398 * per_t_31;
+        const float v_406 = (v_405 * v_386) - v_336;
+        const float v_407 = v_405 - (gain_27 * v_406);
+        const float per_t_32 = 1.0f / t_32;
+        const float gain_28 = v_399 * per_t_32;
+        const float v_408 = (v_388 * v_407) - v_338;
+        const float v_409 = v_407 - (gain_28 * v_408);
+        const float per_t_33 = 1.0f / t_33;
+        const float gain_29 = v_400 * per_t_33;
+        const float v_410 = (v_390 * v_409) - v_340;
+        const float v_411 = v_409 - (gain_29 * v_410);
+        const float per_t_34 = 1.0f / t_34;
+        const float gain_30 = v_401 * per_t_34;
+        const float v_412 = (v_392 * v_411) - v_342;
+        const float v_413 = v_411 - (gain_30 * v_412);
+        const float per_t_35 = 1.0f / t_35;
+        const float gain_31 = v_402 * per_t_35;
+        const float v_414 = (v_394 * v_413) - v_344;
+        const float v_415 = v_413 - (gain_31 * v_414);
+        const float per_t_36 = 1.0f / t_36;
+        const float gain_32 = v_403 * per_t_36;
+        const float v_416 = (v_396 * v_415) - v_346;
+        const float v_417 = v_415 - (gain_32 * v_416);
+        const float per_t_37 = 1.0f / t_37;
+        const float gain_33 = v_404 * per_t_37;
+        const float v_418 = (v_397 * v_417) - v_347;
+        const float v_419 = v_417 - (gain_33 * v_418);
+        const float per_t_38 = 1.0f / t_38;
+        const float kept_31 = t_37 * per_t_38;
+        after->factors[4] = v_419 * kept_31;
+        const float v_420 = (u_1_4 * v_386) - v_348;
+        const float v_421 = u_1_4 - (gain_27 * v_420);
+        const float v_422 = (v_388 * v_421) - v_350;
+        const float v_423 = v_421 - (gain_28 * v_422);
+        const float v_424 = (v_390 * v_423) - v_352;
+        const float v_425 = v_423 - (gain_29 * v_424);
+        const float v_426 = (v_392 * v_425) - v_354;
+        const float v_427 = v_425 - (gain_30 * v_426);
+        const float v_428 = (v_394 * v_427) - v_356;
+        const float v_429 = v_427 - (gain_31 * v_428);
+        const float v_430 = (v_396 * v_429) - v_358;
+        const float v_431 = v_429 - (gain_32 * v_430);
+        const float v_432 = (v_397 * v_431) - v_359;
+        const float v_433 = v_431 - (gain_33 * v_432);
+        after->factors[15] = v_433 * kept_31;
+        const float u_3_4 = before->factors[34];
+        const float v_434 = before->factors[25] + (0.025f * u_3_4);
+        const float v_435 = (v_434 * v_386) - v_361;
+        const float v_436 = v_434 - (gain_27 * v_435);
+        const float v_437 = (v_388 * v_436) - v_363;
+        const float v_438 = v_436 - (gain_28 * v_437);
+        const float v_439 = (v_390 * v_438) - v_365;
+        const float v_440 = v_438 - (gain_29 * v_439);
+        const float v_441 = (v_392 * v_440) - v_367;
+        const float v_442 = v_440 - (gain_30 * v_441);
+        const float v_443 = (v_394 * v_442) - v_369;
+        const float v_444 = v_442 - (gain_31 * v_443);
+        const float v_445 = (v_396 * v_444) - v_371;
+        const float v_446 = v_444 - (gain_32 * v_445);
+        const float v_447 = (v_397 * v_446) - v_372;
+        const float v_448 = v_446 - (gain_33 * v_447);
+        after->factors[25] = v_448 * kept_31;
+        const float v_449 = (u_3_4 * v_386) - v_373;
+        const float v_450 = u_3_4 - (gain_27 * v_449);
+        const float v_451 = (v_388 * v_450) - v_375;
+        const float v_452 = v_450 - (gain_28 * v_451);
+        const float v_453 = (v_390 * v_452) - v_377;
+        const float v_454 = v_452 - (gain_29 * v_453);
+        const float v_455 = (v_392 * v_454) - v_379;
+        const float v_456 = v_454 - (gain_30 * v_455);
+        const float v_457 = (v_394 * v_456) - v_381;
+        const float v_458 = v_456 - (gain_31 * v_457);
+        const float v_459 = (v_396 * v_458) - v_383;
+        const float v_460 = v_458 - (gain_32 * v_459);
+        const float v_461 = (v_397 * v_460) - v_384;
+        const float v_462 = v_460 - (gain_33 * v_461);
+        after->factors[34] = v_462 * kept_31;
+        const float q_3_3 = params->variance_step_vy;
+        const float d_3 = before->factors[33];
+        const float kept_32 = d_4 * per_t_31;
+        const float w_31 = w_24 * kept_32;
+        const float v_463 = w_31 * v_449;
+        const float t_39 = d_3 + (v_449 * v_463);
+        const float kept_33 = t_31 * per_t_32;
+        const float w_32 = w_25 * kept_33;
+        const float v_464 = w_32 * v_451;
+        const float t_40 = t_39 + (v_451 * v_464);
+        const float kept_34 = t_32 * per_t_33;
+        const float w_33 = w_26 * kept_34;
+        const float v_465 = w_33 * v_453;
+        const float t_41 = t_40 + (v_453 * v_465);
+        const float kept_35 = t_33 * per_t_34;
+        const float w_34 = w_27 * kept_35;
+        const float v_466 = w_34 * v_455;
+        const float t_42 = t_41 + (v_455 * v_466);
+        const float kept_36 = t_34 * per_t_35;
+        const float w_35 = w_28 * kept_36;
+        const float v_467 = w_35 * v_457;
+        const float t_43 = t_42 + (v_457 * v_467);
+        const float kept_37 = t_35 * per_t_36;
+        const float w_36 = w_29 * kept_37;
+        const float v_468 = w_36 * v_459;
+        const float t_44 = t_43 + (v_459 * v_468);
+        const float kept_38 = t_36 * per_t_37;
+        const float w_37 = w_30 * kept_38;
+        const float v_469 = w_37 * v_461;
+        const float t_45 = t_44 + (v_461 * v_469);
+        const float w_38 = q_4_4 * kept_31;
+        const float v_470 = v_462 * w_38;
+        const float t_46 = t_45 + (v_462 * v_470);
+        const float t_47 = q_3_3 + t_46;
+        after->factors[33] = t_47;
+        const float u_1_3 = before->factors[14];
+        const float v_471 = before->factors[3] + (0.025f * u_1_3);
+        const float per_t_39 = 1.0f / t_39;
+        const float gain_34 = v_463 * per_t_39;
+        const float v_472 = (v_471 * v_449) - v_406;
+        const float v_473 = v_471 - (gain_34 * v_472);
+        const float per_t_40 = 1.0f / t_40;
+        const float gain_35 = v_464 * per_t_40;
+        const float v_474 = (v_451 * v_473) - v_408;
+        const float v_475 = v_473 - (gain_35 * v_474);
+        const float per_t_41 = 1.0f / t_41;
+        const float gain_36 = v_465 * per_t_41;
+        const float v_476 = (v_453 * v_475) - v_410;
+        const float v_477 = v_475 - (gain_36 * v_476);
+        const float per_t_42 = 1.0f / t_42;
+        const float gain_37 = v_466 * per_t_42;
+        const float v_478 = (v_455 * v_477) - v_412;
+        const float v_479 = v_477 - (gain_37 * v_478);
+        const float per_t_43 = 1.0f / t_43;
+        const float gain_38 = v_467 * per_t_43;
+        const float v_480 = (v_457 * v_479) - v_414;
+        const float v_481 = v_479 - (gain_38 * v_480);
+        const float per_t_44 = 1.0f / t_44;
+        const float gain_39 = v_468 * per_t_44;
+        const float v_482 = (v_459 * v_481) - v_416;
+        const float v_483 = v_481 - (gain_39 * v_482);
+        const float per_t_45 = 1.0f / t_45;
+        const float gain_40 = v_469 * per_t_45;
+        const float v_484 = (v_461 * v_483) - v_418;
+        const float v_485 = v_483 - (gain_40 * v_484);
+        const float per_t_46 = 1.0f / t_46;
+        const float gain_41 = v_470 * per_t_46;
+        const float v_486 = (v_462 * v_485) - v_419;
+        const float v_487 = v_485 - (gain_41 * v_486);
+        const float per_t_47 = 1.0f / t_47;
+        const float kept_39 = t_46 * per_t_47;
+        after->factors[3] = v_487 * kept_39;
+        const float v_488 = (u_1_3 * v_449) - v_420;
+        const float v_489 = u_1_3 - (gain_34 * v_488);
+        const float v_490 = (v_451 * v_489) - v_422;
+        const float v_491 = v_489 - (gain_35 * v_490);
+        const float v_492 = (v_453 * v_491) - v_424;
+        const float v_493 = v_491 - (gain_36 * v_492);
+        const float v_494 = (v_455 * v_493) - v_426;
+        const float v_495 = v_493 - (gain_37 * v_494);
+        const float v_496 = (v_457 * v_495) - v_428;
+        const float v_497 = v_495 - (gain_38 * v_496);
+        const float v_498 = (v_459 * v_497) - v_430;
+        const float v_499 = v_497 - (gain_39 * v_498);
+        const float v_500 = (v_461 * v_499) - v_432;
+        const float v_501 = v_499 - (gain_40 * v_500);
+        const float v_502 = (v_462 * v_501) - v_433;
+        const float v_503 = v_501 - (gain_41 * v_502);
+        after->factors[14] = v_503 * kept_39;
+        const float v_504 = 0.025f + before->factors[24];
+        const float v_505 = (v_504 * v_449) - v_435;
+        const float v_506 = v_504 - (gain_34 * v_505);
+        const float v_507 = (v_451 * v_506) - v_437;
+        const float v_508 = v_506 - (gain_35 * v_507);
+        const float v_509 = (v_453 * v_508) - v_439;
+        const float v_510 = v_508 - (gain_36 * v_509);
+        const float v_511 = (v_455 * v_510) - v_441;
+        const float v_512 = v_510 - (gain_37 * v_511);
+        const float v_513 = (v_457 * v_512) - v_443;
+        const float v_514 = v_512 - (gain_38 * v_513);
+        const float v_515 = (v_459 * v_514) - v_445;
+        const float v_516 = v_514 - (gain_39 * v_515);
+        const float v_517 = (v_461 * v_516) - v_447;
+        const float v_518 = v_516 - (gain_40 * v_517);
+        const float v_519 = (v_462 * v_518) - v_448;
+        const float v_520 = v_518 - (gain_41 * v_519);
+        after->factors[24] = v_520 * kept_39;
+        const float q_2_2 = params->variance_step_y;
+        const float d_2 = before->factors[23];
+        const float kept_40 = d_3 * per_t_39;
+        const float w_39 = w_31 * kept_40;
+        const float v_521 = w_39 * v_505;
+        const float t_48 = d_2 + (v_505 * v_521);
+        const float kept_41 = t_39 * per_t_40;
+        const float w_40 = w_32 * kept_41;
+        const float v_522 = w_40 * v_507;
+        const float t_49 = t_48 + (v_507 * v_522);
+        const float kept_42 = t_40 * per_t_41;
+        const float w_41 = w_33 * kept_42;
+        const float v_523 = w_41 * v_509;
+        const float t_50 = t_49 + (v_509 * v_523);
+        const float kept_43 = t_41 * per_t_42;
+        const float w_42 = w_34 * kept_43;
+        const float v_524 = w_42 * v_511;
+        const float t_51 = t_50 + (v_511 * v_524);
+        const float kept_44 = t_42 * per_t_43;
+        const float w_43 = w_35 * kept_44;
+        const float v_525 = w_43 * v_513;
+        const float t_52 = t_51 + (v_513 * v_525);
+        const float kept_45 = t_43 * per_t_44;
+        const float w_44 = w_36 * kept_45;
+        const float v_526 = w_44 * v_515;
+        const float t_53 = t_52 + (v_515 * v_526);
+        const float kept_46 = t_44 * per_t_45;
+        const float w_45 = w_37 * kept_46;
+        const float v_527 = w_45 * v_517;
+        const float t_54 = t_53 + (v_517 * v_527);
+        const float kept_47 = t_45 * per_t_46;
+        const float w_46 = w_38 * kept_47;
+        const float v_528 = w_46 * v_519;
+        const float t_55 = t_54 + (v_519 * v_528);
+        const float w_47 = q_3_3 * kept_39;
+        const float v_529 = v_520 * w_47;
+        const float t_56 = t_55 + (v_520 * v_529);
+        const float t_57 = q_2_2 + t_56;
+        after->factors[23] = t_57;
+        const float u_1_2 = before->factors[13];
+        const float v_530 = before->factors[2] + (0.025f * u_1_2);
+        const float per_t_48 = 1.0f / t_48;
+        const float gain_42 = v_521 * per_t_48;
+        const float v_531 = (v_530 * v_505) - v_472;
+        const float v_532 = v_530 - (gain_42 * v_531);
+        const float per_t_49 = 1.0f / t_49;
+        const float gain_43 = v_522 * per_t_49;
+        const float v_533 = (v_507 * v_532) - v_474;
+        const float v_534 = v_532 - (gain_43 * v_533);
+        const float per_t_50 = 1.0f / t_50;
+        const float gain_44 = v_523 * per_t_50;
+        const float v_535 = (v_509 * v_534) - v_476;
+        const float v_536 = v_534 - (gain_44 * v_535);
+        const float per_t_51 = 1.0f / t_51;
+        const float gain_45 = v_524 * per_t_51;
+        const float v_537 = (v_511 * v_536) - v_478;
+        const float v_538 = v_536 - (gain_45 * v_537);
+        const float per_t_52 = 1.0f / t_52;
+        const float gain_46 = v_525 * per_t_52;
+        const float v_539 = (v_513 * v_538) - v_480;
+        const float v_540 = v_538 - (gain_46 * v_539);
+        const float per_t_53 = 1.0f / t_53;
+        const float gain_47 = v_526 * per_t_53;
+        const float v_541 = (v_515 * v_540) - v_482;
+        const float v_542 = v_540 - (gain_47 * v_541);
+        const float per_t_54 = 1.0f / t_54;
+        const float gain_48 = v_527 * per_t_54;
+        const float v_543 = (v_517 * v_542) - v_484;
+        const float v_544 = v_542 - (gain_48 * v_543);
+        const float per_t_55 = 1.0f / t_55;
+        const float gain_49 = v_528 * per_t_55;
+        const float v_545 = (v_519 * v_544) - v_486;
+        const float v_546 = v_544 - (gain_49 * v_545);
+        const float per_t_56 = 1.0f / t_56;
+        const float gain_50 = v_529 * per_t_56;
+        const float v_547 = (v_520 * v_546) - v_487;
+        const float v_548 = v_546 - (gain_50 * v_547);
+        const float per_t_57 = 1.0f / t_57;
+        const float kept_48 = t_56 * per_t_57;
+        after->factors[2] = v_548 * kept_48;
+        const float v_549 = (u_1_2 * v_505) - v_488;
+        const float v_550 = u_1_2 - (gain_42 * v_549);
+        const float v_551 = (v_507 * v_550) - v_490;
+        const float v_552 = v_550 - (gain_43 * v_551);
+        const float v_553 = (v_509 * v_552) - v_492;
+        const float v_554 = v_552 - (gain_44 * v_553);
+        const float v_555 = (v_511 * v_554) - v_494;
+        const float v_556 = v_554 - (gain_45 * v_555);
+        const float v_557 = (v_513 * v_556) - v_496;
+        const float v_558 = v_556 - (gain_46 * v_557);
+        const float v_559 = (v_515 * v_558) - v_498;
+        const float v_560 = v_558 - (gain_47 * v_559);
+        const float v_561 = (v_517 * v_560) - v_500;
+        const float v_562 = v_560 - (gain_48 * v_561);
+        const float v_563 = (v_519 * v_562) - v_502;
+        const float v_564 = v_562 - (gain_49 * v_563);
+        const float v_565 = (v_520 * v_564) - v_503;
+        const float v_566 = v_564 - (gain_50 * v_565);
+        after->factors[13] = v_566 * kept_48;
+        const float q_1_1 = params->variance_step_vx;
+        const float d_1 = before->factors[12];
+        const float kept_49 = d_2 * per_t_48;
+        const float w_48 = w_39 * kept_49;
+        const float v_567 = w_48 * v_549;
+        const float t_58 = d_1 + (v_549 * v_567);
+        const float kept_50 = t_48 * per_t_49;
+        const float w_49 = w_40 * kept_50;
+        const float v_568 = w_49 * v_551;
+        const float t_59 = t_58 + (v_551 * v_568);
+        const float kept_51 = t_49 * per_t_50;
+        const float w_50 = w_41 * kept_51;
+        const float v_569 = w_50 * v_553;
+        const float t_60 = t_59 + (v_553 * v_569);
+        const float kept_52 = t_50 * per_t_51;
+        const float w_51 = w_42 * kept_52;
+        const float v_570 = w_51 * v_555;
+        const float t_61 = t_60 + (v_555 * v_570);
+        const float kept_53 = t_51 * per_t_52;
+        const float w_52 = w_43 * kept_53;
+        const float v_571 = w_52 * v_557;
+        const float t_62 = t_61 + (v_557 * v_571);
+        const float kept_54 = t_52 * per_t_53;
+        const float w_53 = w_44 * kept_54;
+        const float v_572 = w_53 * v_559;
+        const float t_63 = t_62 + (v_559 * v_572);
+        const float kept_55 = t_53 * per_t_54;
+        const float w_54 = w_45 * kept_55;
+        const float v_573 = w_54 * v_561;
+        const float t_64 = t_63 + (v_561 * v_573);
+        const float kept_56 = t_54 * per_t_55;
+        const float w_55 = w_46 * kept_56;
+        const float v_574 = w_55 * v_563;
+        const float t_65 = t_64 + (v_563 * v_574);
+        const float kept_57 = t_55 * per_t_56;
+        const float w_56 = w_47 * kept_57;
+        const float v_575 = w_56 * v_565;
+        const float t_66 = t_65 + (v_565 * v_575);
+        const float w_57 = q_2_2 * kept_48;
+        const float v_576 = v_566 * w_57;
+        const float t_67 = t_66 + (v_566 * v_576);
+        const float t_68 = q_1_1 + t_67;
+        after->factors[12] = t_68;
+        const float v_577 = 0.025f + before->factors[1];
+        const float per_t_58 = 1.0f / t_58;
+        const float gain_51 = v_567 * per_t_58;
+        const float v_578 = (v_577 * v_549) - v_531;
+        const float v_579 = v_577 - (gain_51 * v_578);
+        const float per_t_59 = 1.0f / t_59;
+        const float gain_52 = v_568 * per_t_59;
+        const float v_580 = (v_551 * v_579) - v_533;
+        const float v_581 = v_579 - (gain_52 * v_580);
+        const float per_t_60 = 1.0f / t_60;
+        const float gain_53 = v_569 * per_t_60;
+        const float v_582 = (v_553 * v_581) - v_535;
+        const float v_583 = v_581 - (gain_53 * v_582);
+        const float per_t_61 = 1.0f / t_61;
+        const float gain_54 = v_570 * per_t_61;
+        const float v_584 = (v_555 * v_583) - v_537;
+        const float v_585 = v_583 - (gain_54 * v_584);
+        const float per_t_62 = 1.0f / t_62;
+        const float gain_55 = v_571 * per_t_62;
+        const float v_586 = (v_557 * v_585) - v_539;
+        const float v_587 = v_585 - (gain_55 * v_586);
+        const float per_t_63 = 1.0f / t_63;
+        const float gain_56 = v_572 * per_t_63;
+        const float v_588 = (v_559 * v_587) - v_541;
+        const float v_589 = v_587 - (gain_56 * v_588);
+        const float per_t_64 = 1.0f / t_64;
+        const float gain_57 = v_573 * per_t_64;
+        const float v_590 = (v_561 * v_589) - v_543;
+        const float v_591 = v_589 - (gain_57 * v_590);
+        const float per_t_65 = 1.0f / t_65;
+        const float gain_58 = v_574 * per_t_65;
+        const float v_592 = (v_563 * v_591) - v_545;
+        const float v_593 = v_591 - (gain_58 * v_592);
+        const float per_t_66 = 1.0f / t_66;
+        const float gain_59 = v_575 * per_t_66;
+        const float v_594 = (v_565 * v_593) - v_547;
+        const float v_595 = v_593 - (gain_59 * v_594);
+        const float per_t_67 = 1.0f / t_67;
+        const float gain_60 = v_576 * per_t_67;
+        const float v_596 = (v_566 * v_595) - v_548;
+        const float v_597 = v_595 - (gain_60 * v_596);
+        const float per_t_68 = 1.0f / t_68;
+        const float kept_58 = t_67 * per_t_68;
+        after->factors[1] = v_597 * kept_58;
+        const float kept_59 = d_1 * per_t_58;
+        const float w_58 = w_48 * kept_59;
+        const float t_69 = before->factors[0] + (v_578 * (w_58 * v_578));
+        const float kept_60 = t_58 * per_t_59;
+        const float w_59 = w_49 * kept_60;
+        const float t_70 = t_69 + (v_580 * (w_59 * v_580));
+        const float kept_61 = t_59 * per_t_60;
+        const float w_60 = w_50 * kept_61;
+        const float t_71 = t_70 + (v_582 * (w_60 * v_582));
+        const float kept_62 = t_60 * per_t_61;
+        const float w_61 = w_51 * kept_62;
+        const float t_72 = t_71 + (v_584 * (w_61 * v_584));
+        const float kept_63 = t_61 * per_t_62;
+        const float w_62 = w_52 * kept_63;
+        const float t_73 = t_72 + (v_586 * (w_62 * v_586));
+        const float kept_64 = t_62 * per_t_63;
+        const float w_63 = w_53 * kept_64;
+        const float t_74 = t_73 + (v_588 * (w_63 * v_588));
+        const float kept_65 = t_63 * per_t_64;
+        const float w_64 = w_54 * kept_65;
+        const float t_75 = t_74 + (v_590 * (w_64 * v_590));
+        const float kept_66 = t_64 * per_t_65;
+        const float w_65 = w_55 * kept_66;
+        const float t_76 = t_75 + (v_592 * (w_65 * v_592));
+        const float kept_67 = t_65 * per_t_66;
+        const float w_66 = w_56 * kept_67;
+        const float t_77 = t_76 + (v_594 * (w_66 * v_594));
+        const float kept_68 = t_66 * per_t_67;
+        const float w_67 = w_57 * kept_68;
+        const float t_78 = t_77 + (v_596 * (w_67 * v_596));
+        const float w_68 = q_1_1 * kept_58;
+        const float t_79 = t_78 + (v_597 * (v_597 * w_68));
+        after->factors[0] = params->variance_step_x + t_79;
+    }
+
+    if (!(((params->variance_step_x >= 0.0f) == true) && ((params->variance_step_vx >= 0.0f) == true)
+          && ((params->variance_step_y >= 0.0f) == true) && ((params->variance_step_vy >= 0.0f) == true)
+          && ((params->variance_step_z >= 0.0f) == true) && ((params->variance_step_vz >= 0.0f) == true)
+          && ((params->variance_step_roll >= 0.0f) == true) && ((params->variance_step_roll_rate >= 0.0f) == true)
+          && ((params->variance_step_pitch >= 0.0f) == true) && ((params->variance_step_pitch_rate >= 0.0f) == true)
+          && ((params->variance_step_yaw >= 0.0f) == true) && ((params->variance_step_yaw_rate >= 0.0f) == true)))
+    {
+        status = QUADROTOR_UD_NOT_POSITIVE;
+    }
+    else
+    {
+        /* judge, then commit */
+        if (!quadrotor_ud_is_bounded(after->factors))
+        {
+            status = quadrotor_ud_hold_factors(after->factors);
+        }
+        if (status >= QUADROTOR_UD_OK)
+        {
+            if (!(((after->x >= -10000.0f) == true) && ((after->x <= 10000.0f) == true)
+                  && ((after->vx >= -1000.0f) == true) && ((after->vx <= 1000.0f) == true)
+                  && ((after->y >= -10000.0f) == true) && ((after->y <= 10000.0f) == true)
+                  && ((after->vy >= -1000.0f) == true) && ((after->vy <= 1000.0f) == true)
+                  && ((after->z >= -10000.0f) == true) && ((after->z <= 10000.0f) == true)
+                  && ((after->vz >= -1000.0f) == true) && ((after->vz <= 1000.0f) == true)
+                  && ((after->roll >= -30.0f) == true) && ((after->roll <= 30.0f) == true)
+                  && ((after->roll_rate >= -100.0f) == true) && ((after->roll_rate <= 100.0f) == true)
+                  && ((after->pitch >= -30.0f) == true) && ((after->pitch <= 30.0f) == true)
+                  && ((after->pitch_rate >= -100.0f) == true) && ((after->pitch_rate <= 100.0f) == true)
+                  && ((after->yaw >= -30.0f) == true) && ((after->yaw <= 30.0f) == true)
+                  && ((after->yaw_rate >= -100.0f) == true) && ((after->yaw_rate <= 100.0f) == true)))
+            {
+                status = QUADROTOR_UD_OVERFLOW;
+            }
+        }
+    }
+    return status;
+}
+
 static quadrotor_ud_status_t quadrotor_ud_predict_core(const quadrotor_ud_state_t *before, quadrotor_ud_state_t *after,
                                                        const quadrotor_ud_params_t *params, const float rotor_1,
                                                        const float rotor_2, const float rotor_3, const float rotor_4)
 {
     quadrotor_ud_status_t status = QUADROTOR_UD_OK;
-
-    after->rejected_pose = before->rejected_pose;
 
     if (!(((rotor_1 >= -1000.0f) == true) && ((rotor_1 <= 1000.0f) == true) && ((rotor_2 >= -1000.0f) == true)
           && ((rotor_2 <= 1000.0f) == true) && ((rotor_3 >= -1000.0f) == true) && ((rotor_3 <= 1000.0f) == true)
@@ -408,1332 +1696,1119 @@ static quadrotor_ud_status_t quadrotor_ud_predict_core(const quadrotor_ud_state_
     }
     else
     {
-        /* x, F = dx/dx and Q over one step, by euler */
-        /* x' = vx */
-        /* vx' = (sin(yaw) sin(roll) + cos(yaw) sin(pitch)) cos(roll) (5.42e-05 (rotor_1^2 + rotor_2^2 + rotor_3^2 +
-         * rotor_4^2)) */
-        /* y' = vy */
-        /* vy' = (sin(yaw) sin(pitch) - cos(yaw) sin(roll)) cos(roll) (5.42e-05 (rotor_1^2 + rotor_2^2 + rotor_3^2 +
-         * rotor_4^2)) */
-        /* z' = vz */
-        /* vz' = cos(pitch) cos(roll) (5.42e-05 (rotor_1^2 + rotor_2^2 + rotor_3^2 + rotor_4^2)) - 9.81 */
-        /* roll' = roll_rate */
-        /* roll_rate' = -0.753086419753 (pitch_rate yaw_rate) - 0.0128395061728 pitch_rate (rotor_1 - rotor_2 +
-         * rotor_3 - rotor_4) + 0.00160592592593 (rotor_3^2 - (rotor_1^2 + rotor_2^2) + rotor_4^2) */
-        /* pitch' = pitch_rate */
-        /* pitch_rate' = 0.753086419753 (roll_rate yaw_rate) + 0.0128395061728 roll_rate (rotor_1 - rotor_2 + rotor_3
-         * - rotor_4) + 0.00160592592593 (rotor_2^2 - rotor_1^2 + rotor_3^2 - rotor_4^2) */
-        /* yaw' = yaw_rate */
-        /* yaw_rate' = 1.1e-06 (rotor_1^2 - rotor_2^2 + rotor_3^2 - rotor_4^2) / 0.0142 */
-        const float vx = before->vx;
-        after->x = before->x + (vx * 0.025f);
-        const float yaw = before->yaw;
-        const float v = quadrotor_ud_math_sin(yaw);
-        const float roll = before->roll;
-        const float v_2 = quadrotor_ud_math_sin(roll);
-        const float v_3 = quadrotor_ud_math_cos(yaw);
-        const float pitch = before->pitch;
-        const float v_4 = quadrotor_ud_math_sin(pitch);
-        const float v_5 = (v * v_2) + (v_3 * v_4);
-        const float v_6 = quadrotor_ud_math_cos(roll);
-        const float v_7 = rotor_1 * rotor_1;
-        const float v_8 = rotor_2 * rotor_2;
-        const float v_9 = v_7 + v_8;
-        const float v_10 = rotor_3 * rotor_3;
-        const float v_11 = rotor_4 * rotor_4;
-        const float v_12 = 0.0000542f * ((v_9 + v_10) + v_11);
-        const float f_3_10 = 0.025f * ((v_5 * v_6) * v_12);
-        after->vx = vx + f_3_10;
-        const float vy = before->vy;
-        after->y = before->y + (vy * 0.025f);
-        const float v_13 = v * v_4;
-        const float v_14 = v_2 * v_3;
-        const float v_15 = v_13 - v_14;
-        after->vy = vy + (0.025f * (v_12 * (v_6 * v_15)));
-        const float vz = before->vz;
-        after->z = before->z + (vz * 0.025f);
-        const float v_16 = quadrotor_ud_math_cos(pitch);
-        after->vz = vz + (0.025f * ((v_12 * (v_6 * v_16)) - 9.81f));
-        const float roll_rate = before->roll_rate;
-        after->roll = roll + (roll_rate * 0.025f);
-        const float pitch_rate = before->pitch_rate;
-        const float yaw_rate = before->yaw_rate;
-        const float v_17 = (rotor_3 + (rotor_1 - rotor_2)) - rotor_4;
-        const float v_18 = ((-((pitch_rate * yaw_rate) * 0.75308645f)) - ((pitch_rate * 0.012839506f) * v_17)) +
-            (0.001605926f * (v_11 + (v_10 - v_9)));
-        after->roll_rate = roll_rate + (0.025f * v_18);
-        after->pitch = pitch + (pitch_rate * 0.025f);
-        const float v_19 = ((0.75308645f * (roll_rate * yaw_rate)) + (v_17 * (roll_rate * 0.012839506f))) +
-            (0.001605926f * ((v_10 + (v_8 - v_7)) - v_11));
-        after->pitch_rate = pitch_rate + (0.025f * v_19);
-        after->yaw = yaw + (yaw_rate * 0.025f);
-        after->yaw_rate = yaw_rate + (0.025f * ((1.1e-6f * ((v_10 + (v_7 - v_8)) - v_11)) * 70.42254f));
-        const float f_1_6 = 0.025f * (v_12 * ((v_6 * (v * v_6)) - (v_2 * v_5)));
-        const float f_1_8 = 0.025f * (v_12 * (v_6 * (v_3 * v_16)));
-        const float f_1_10 = 0.025f * (v_12 * (v_6 * (v_14 - v_13)));
-        const float f_3_6 = -(0.025f * (v_12 * ((v_6 * (v_3 * v_6)) + (v_2 * v_15))));
-        const float f_3_8 = 0.025f * (v_12 * (v_6 * (v * v_16)));
-        const float f_5_6 = -(0.025f * (v_12 * (v_2 * v_16)));
-        const float f_5_8 = -(0.025f * (v_12 * (v_4 * v_6)));
-        const float v_20 = yaw_rate * 0.75308645f;
-        const float v_21 = 0.012839506f * v_17;
-        const float f_7_9 = 0.025f * ((-v_20) - v_21);
-        const float f_7_11 = -(pitch_rate * 0.01882716f);
-        const float f_9_7 = 0.025f * (v_20 + v_21);
-        const float f_9_11 = roll_rate * 0.01882716f;
+        status = quadrotor_ud_predict_judged(before, after, params, rotor_1, rotor_2, rotor_3, rotor_4);
+    }
+    return status;
+}
 
-        if (!(((params->variance_step_x >= 0.0f) == true) && ((params->variance_step_vx >= 0.0f) == true)
-              && ((params->variance_step_y >= 0.0f) == true) && ((params->variance_step_vy >= 0.0f) == true)
-              && ((params->variance_step_z >= 0.0f) == true) && ((params->variance_step_vz >= 0.0f) == true)
-              && ((params->variance_step_roll >= 0.0f) == true) && ((params->variance_step_roll_rate >= 0.0f) == true)
-              && ((params->variance_step_pitch >= 0.0f) == true) && ((params->variance_step_pitch_rate >= 0.0f) == true)
-              && ((params->variance_step_yaw >= 0.0f) == true) && ((params->variance_step_yaw_rate >= 0.0f) == true)))
+/* 678 additions, 884 multiplications, 42 divisions, 6 selections. */
+static quadrotor_ud_status_t quadrotor_ud_update_pose_judged(const quadrotor_ud_state_t *before,
+                                                             quadrotor_ud_state_t *after,
+                                                             const quadrotor_ud_params_t *params, const float pose[6],
+                                                             const float gate, quadrotor_ud_update_pose_out_t *out)
+{
+    float delta[12];
+    float nis[1];
+    float row_variance[6];
+    quadrotor_ud_status_t status = QUADROTOR_UD_OK;
+
+    /* residual[0] = pose[0] - x */
+    /* residual[1] = pose[1] - y */
+    /* residual[2] = pose[2] - z */
+    /* residual[3] = pose[3] - roll */
+    /* residual[4] = pose[4] - pitch */
+    /* residual[5] = pose[5] - yaw */
+    const float residual_0 = pose[0] - before->x;
+    const float residual_1 = pose[1] - before->y;
+    const float residual_2 = pose[2] - before->z;
+    const float residual_3 = pose[3] - before->roll;
+    const float residual_4 = pose[4] - before->pitch;
+    const float residual_5 = pose[5] - before->yaw;
+
+    /* variance of the innovation: diagonal of H U D U' H' + R */
+    {
+        const float u_0_11 = before->factors[11];
+        const float d_11 = before->factors[77];
+        const float u_0_10 = before->factors[10];
+        const float d_10 = before->factors[75];
+        const float u_0_9 = before->factors[9];
+        const float d_9 = before->factors[72];
+        const float u_0_8 = before->factors[8];
+        const float d_8 = before->factors[68];
+        const float u_0_7 = before->factors[7];
+        const float d_7 = before->factors[63];
+        const float u_0_6 = before->factors[6];
+        const float d_6 = before->factors[57];
+        const float u_0_5 = before->factors[5];
+        const float d_5 = before->factors[50];
+        const float u_0_4 = before->factors[4];
+        const float d_4 = before->factors[42];
+        const float u_0_3 = before->factors[3];
+        const float d_3 = before->factors[33];
+        const float u_0_2 = before->factors[2];
+        const float d_2 = before->factors[23];
+        const float u_0_1 = before->factors[1];
+        const float v = (u_0_2 * (u_0_2 * d_2)) + (before->factors[0] + (u_0_1 * (u_0_1 * before->factors[12])));
+        const float v_2 = (u_0_6 * (u_0_6 * d_6)) + ((u_0_5 * (u_0_5 * d_5)) + ((u_0_4 * (u_0_4 * d_4)) + ((u_0_3 *
+            (u_0_3 * d_3)) + v)));
+        const float v_3 = (u_0_9 * (u_0_9 * d_9)) + ((u_0_8 * (u_0_8 * d_8)) + ((u_0_7 * (u_0_7 * d_7)) + v_2));
+        out->variance[0] = params->variance_pose[0] + ((u_0_11 * (u_0_11 * d_11)) + ((u_0_10 * (u_0_10 * d_10)) + v_3));
+        const float u_2_11 = before->factors[32];
+        const float u_2_10 = before->factors[31];
+        const float u_2_9 = before->factors[30];
+        const float u_2_8 = before->factors[29];
+        const float u_2_7 = before->factors[28];
+        const float u_2_6 = before->factors[27];
+        const float u_2_5 = before->factors[26];
+        const float u_2_4 = before->factors[25];
+        const float u_2_3 = before->factors[24];
+        const float v_4 = (u_2_5 * (u_2_5 * d_5)) + ((u_2_4 * (u_2_4 * d_4)) + (d_2 + (u_2_3 * (u_2_3 * d_3))));
+        const float v_5 = (u_2_8 * (u_2_8 * d_8)) + ((u_2_7 * (u_2_7 * d_7)) + ((u_2_6 * (u_2_6 * d_6)) + v_4));
+        const float v_6 = (u_2_11 * (u_2_11 * d_11)) + ((u_2_10 * (u_2_10 * d_10)) + ((u_2_9 * (u_2_9 * d_9)) + v_5));
+        out->variance[1] = params->variance_pose[1] + v_6;
+        const float u_4_11 = before->factors[49];
+        const float u_4_10 = before->factors[48];
+        const float u_4_9 = before->factors[47];
+        const float u_4_8 = before->factors[46];
+        const float u_4_7 = before->factors[45];
+        const float u_4_6 = before->factors[44];
+        const float u_4_5 = before->factors[43];
+        const float v_7 = (u_4_7 * (u_4_7 * d_7)) + ((u_4_6 * (u_4_6 * d_6)) + (d_4 + (u_4_5 * (u_4_5 * d_5))));
+        const float v_8 = (u_4_10 * (u_4_10 * d_10)) + ((u_4_9 * (u_4_9 * d_9)) + ((u_4_8 * (u_4_8 * d_8)) + v_7));
+        out->variance[2] = params->variance_pose[2] + ((u_4_11 * (u_4_11 * d_11)) + v_8);
+        const float u_6_11 = before->factors[62];
+        const float u_6_10 = before->factors[61];
+        const float u_6_9 = before->factors[60];
+        const float u_6_8 = before->factors[59];
+        const float u_6_7 = before->factors[58];
+        const float v_9 = (u_6_9 * (u_6_9 * d_9)) + ((u_6_8 * (u_6_8 * d_8)) + (d_6 + (u_6_7 * (u_6_7 * d_7))));
+        out->variance[3] = params->variance_pose[3] + ((u_6_11 * (u_6_11 * d_11)) + ((u_6_10 * (u_6_10 * d_10)) + v_9));
+        const float u_8_11 = before->factors[71];
+        const float u_8_10 = before->factors[70];
+        const float u_8_9 = before->factors[69];
+        const float v_10 = (u_8_11 * (u_8_11 * d_11)) + ((u_8_10 * (u_8_10 * d_10)) + (d_8 + (u_8_9 * (u_8_9 * d_9))));
+        out->variance[4] = params->variance_pose[4] + v_10;
+        const float u_10_11 = before->factors[76];
+        out->variance[5] = params->variance_pose[5] + (d_10 + (u_10_11 * (u_10_11 * d_11)));
+    }
+    out->innovation[0] = residual_0;
+    out->innovation[1] = residual_1;
+    out->innovation[2] = residual_2;
+    out->innovation[3] = residual_3;
+    out->innovation[4] = residual_4;
+    out->innovation[5] = residual_5;
+
+    /* row 0: d = d + K e, Bierman's update of U and D */
+    /* row 1: d = d + K e, Bierman's update of U and D */
+    /* row 2: d = d + K e, Bierman's update of U and D */
+    /* row 3: d = d + K e, Bierman's update of U and D */
+    {
+        const float d_0 = before->factors[0];
+        const float r_0 = params->variance_pose[0];
+        const float v = r_0 + d_0;
+        const float per_a_0 = 1.0f / ((v >= 1.0e-20f) ? v : 1.0f);
+        after->factors[0] = d_0 * (r_0 * per_a_0);
+        const float u_0_1 = before->factors[1];
+        const float loss_1 = u_0_1 * per_a_0;
+        after->factors[1] = r_0 * loss_1;
+        const float u_0_2 = before->factors[2];
+        const float d_1 = before->factors[12];
+        const float v_2 = u_0_1 * d_1;
+        const float v_3 = u_0_1 * v_2;
+        const float v_4 = v_3 + v;
+        const float per_a_1 = 1.0f / v_4;
+        const float loss_2 = u_0_2 * per_a_1;
+        const float v_5 = r_0 * loss_2;
+        after->factors[2] = v_5;
+        const float u_0_3 = before->factors[3];
+        const float d_2 = before->factors[23];
+        const float v_6 = u_0_2 * d_2;
+        const float v_7 = u_0_2 * v_6;
+        const float v_8 = v_7 + v_4;
+        const float per_a_2 = 1.0f / v_8;
+        const float loss_3 = u_0_3 * per_a_2;
+        const float v_9 = r_0 * loss_3;
+        const float new_d_2 = d_2 * (v_4 * per_a_2);
+        const float v_10 = new_d_2 * v_5;
+        const float u_2_3 = before->factors[24];
+        const float v_11 = u_2_3 - (v_6 * loss_3);
+        const float r_1 = params->variance_pose[1];
+        const float v_12 = r_1 + new_d_2;
+        const float per_a_2_2 = 1.0f / ((v_12 >= 1.0e-20f) ? v_12 : 1.0f);
+        const float loss_3_2 = v_11 * per_a_2_2;
+        after->factors[3] = v_9 - (v_10 * loss_3_2);
+        const float u_0_4 = before->factors[4];
+        const float d_3 = before->factors[33];
+        const float v_13 = u_0_3 * d_3;
+        const float v_14 = u_0_3 * v_13;
+        const float v_15 = v_14 + v_8;
+        const float per_a_3 = 1.0f / v_15;
+        const float loss_4 = u_0_4 * per_a_3;
+        const float v_16 = r_0 * loss_4;
+        const float new_d_3 = d_3 * (v_8 * per_a_3);
+        const float v_17 = new_d_3 * v_11;
+        const float v_18 = v_10 + (v_9 * v_17);
+        const float u_2_4 = before->factors[25];
+        const float v_19 = v_6 + (u_2_3 * v_13);
+        const float v_20 = u_2_4 - (v_19 * loss_4);
+        const float v_21 = v_11 * v_17;
+        const float v_22 = v_12 + v_21;
+        const float per_a_3_2 = 1.0f / v_22;
+        const float loss_4_2 = v_20 * per_a_3_2;
+        const float v_23 = v_16 - (v_18 * loss_4_2);
+        after->factors[4] = v_23;
+        const float u_0_5 = before->factors[5];
+        const float d_4 = before->factors[42];
+        const float v_24 = u_0_4 * d_4;
+        const float v_25 = u_0_4 * v_24;
+        const float v_26 = v_25 + v_15;
+        const float per_a_4 = 1.0f / v_26;
+        const float loss_5 = u_0_5 * per_a_4;
+        const float v_27 = r_0 * loss_5;
+        const float new_d_4 = d_4 * (v_15 * per_a_4);
+        const float v_28 = new_d_4 * v_20;
+        const float v_29 = v_18 + (v_16 * v_28);
+        const float u_2_5 = before->factors[26];
+        const float v_30 = v_19 + (u_2_4 * v_24);
+        const float v_31 = u_2_5 - (v_30 * loss_5);
+        const float v_32 = v_20 * v_28;
+        const float v_33 = v_22 + v_32;
+        const float per_a_4_2 = 1.0f / v_33;
+        const float loss_5_2 = v_31 * per_a_4_2;
+        const float v_34 = v_27 - (v_29 * loss_5_2);
+        const float new_d_4_2 = new_d_4 * (v_22 * per_a_4_2);
+        const float v_35 = new_d_4_2 * v_23;
+        const float u_4_5 = before->factors[43];
+        const float v_36 = u_4_5 - (v_24 * loss_5);
+        const float v_37 = v_36 - (v_28 * loss_5_2);
+        const float r_2 = params->variance_pose[2];
+        const float v_38 = r_2 + new_d_4_2;
+        const float per_a_4_3 = 1.0f / ((v_38 >= 1.0e-20f) ? v_38 : 1.0f);
+        const float loss_5_3 = v_37 * per_a_4_3;
+        after->factors[5] = v_34 - (v_35 * loss_5_3);
+        const float u_0_6 = before->factors[6];
+        const float d_5 = before->factors[50];
+        const float v_39 = u_0_5 * d_5;
+        const float v_40 = u_0_5 * v_39;
+        const float v_41 = v_40 + v_26;
+        const float per_a_5 = 1.0f / v_41;
+        const float loss_6 = u_0_6 * per_a_5;
+        const float v_42 = r_0 * loss_6;
+        const float new_d_5 = d_5 * (v_26 * per_a_5);
+        const float v_43 = new_d_5 * v_31;
+        const float v_44 = v_29 + (v_27 * v_43);
+        const float u_2_6 = before->factors[27];
+        const float v_45 = v_30 + (u_2_5 * v_39);
+        const float v_46 = u_2_6 - (v_45 * loss_6);
+        const float v_47 = v_31 * v_43;
+        const float v_48 = v_33 + v_47;
+        const float per_a_5_2 = 1.0f / v_48;
+        const float loss_6_2 = v_46 * per_a_5_2;
+        const float v_49 = v_42 - (v_44 * loss_6_2);
+        const float new_d_5_2 = new_d_5 * (v_33 * per_a_5_2);
+        const float v_50 = new_d_5_2 * v_37;
+        const float v_51 = v_35 + (v_34 * v_50);
+        const float u_4_6 = before->factors[44];
+        const float v_52 = v_24 + (u_4_5 * v_39);
+        const float v_53 = u_4_6 - (v_52 * loss_6);
+        const float v_54 = v_28 + (v_36 * v_43);
+        const float v_55 = v_53 - (v_54 * loss_6_2);
+        const float v_56 = v_37 * v_50;
+        const float v_57 = v_38 + v_56;
+        const float per_a_5_3 = 1.0f / v_57;
+        const float loss_6_3 = v_55 * per_a_5_3;
+        const float v_58 = v_49 - (v_51 * loss_6_3);
+        after->factors[6] = v_58;
+        const float u_0_7 = before->factors[7];
+        const float d_6 = before->factors[57];
+        const float v_59 = u_0_6 * d_6;
+        const float v_60 = u_0_6 * v_59;
+        const float v_61 = v_60 + v_41;
+        const float per_a_6 = 1.0f / v_61;
+        const float loss_7 = u_0_7 * per_a_6;
+        const float v_62 = r_0 * loss_7;
+        const float new_d_6 = d_6 * (v_41 * per_a_6);
+        const float v_63 = new_d_6 * v_46;
+        const float v_64 = v_44 + (v_42 * v_63);
+        const float u_2_7 = before->factors[28];
+        const float v_65 = v_45 + (u_2_6 * v_59);
+        const float v_66 = u_2_7 - (v_65 * loss_7);
+        const float v_67 = v_46 * v_63;
+        const float v_68 = v_48 + v_67;
+        const float per_a_6_2 = 1.0f / v_68;
+        const float loss_7_2 = v_66 * per_a_6_2;
+        const float v_69 = v_62 - (v_64 * loss_7_2);
+        const float new_d_6_2 = new_d_6 * (v_48 * per_a_6_2);
+        const float v_70 = new_d_6_2 * v_55;
+        const float v_71 = v_51 + (v_49 * v_70);
+        const float u_4_7 = before->factors[45];
+        const float v_72 = v_52 + (u_4_6 * v_59);
+        const float v_73 = u_4_7 - (v_72 * loss_7);
+        const float v_74 = v_54 + (v_53 * v_63);
+        const float v_75 = v_73 - (v_74 * loss_7_2);
+        const float v_76 = v_55 * v_70;
+        const float v_77 = v_57 + v_76;
+        const float per_a_6_3 = 1.0f / v_77;
+        const float loss_7_3 = v_75 * per_a_6_3;
+        const float v_78 = v_69 - (v_71 * loss_7_3);
+        const float new_d_6_3 = new_d_6_2 * (v_57 * per_a_6_3);
+        const float v_79 = new_d_6_3 * v_58;
+        const float u_6_7 = before->factors[58];
+        const float v_80 = u_6_7 - (v_59 * loss_7);
+        const float v_81 = v_80 - (v_63 * loss_7_2);
+        const float v_82 = v_81 - (v_70 * loss_7_3);
+        const float r_3 = params->variance_pose[3];
+        const float v_83 = r_3 + new_d_6_3;
+        const float per_a_6_4 = 1.0f / ((v_83 >= 1.0e-20f) ? v_83 : 1.0f);
+        const float loss_7_4 = v_82 * per_a_6_4;
+        after->factors[7] = v_78 - (v_79 * loss_7_4);
+        const float u_0_8 = before->factors[8];
+        const float d_7 = before->factors[63];
+        const float v_84 = u_0_7 * d_7;
+        const float v_85 = u_0_7 * v_84;
+        const float v_86 = v_85 + v_61;
+        const float per_a_7 = 1.0f / v_86;
+        const float loss_8 = u_0_8 * per_a_7;
+        const float v_87 = r_0 * loss_8;
+        const float new_d_7 = d_7 * (v_61 * per_a_7);
+        const float v_88 = new_d_7 * v_66;
+        const float v_89 = v_64 + (v_62 * v_88);
+        const float u_2_8 = before->factors[29];
+        const float v_90 = v_65 + (u_2_7 * v_84);
+        const float v_91 = u_2_8 - (v_90 * loss_8);
+        const float v_92 = v_66 * v_88;
+        const float v_93 = v_68 + v_92;
+        const float per_a_7_2 = 1.0f / v_93;
+        const float loss_8_2 = v_91 * per_a_7_2;
+        const float v_94 = v_87 - (v_89 * loss_8_2);
+        const float new_d_7_2 = new_d_7 * (v_68 * per_a_7_2);
+        const float v_95 = new_d_7_2 * v_75;
+        const float v_96 = v_71 + (v_69 * v_95);
+        const float u_4_8 = before->factors[46];
+        const float v_97 = v_72 + (u_4_7 * v_84);
+        const float v_98 = u_4_8 - (v_97 * loss_8);
+        const float v_99 = v_74 + (v_73 * v_88);
+        const float v_100 = v_98 - (v_99 * loss_8_2);
+        const float v_101 = v_75 * v_95;
+        const float v_102 = v_77 + v_101;
+        const float per_a_7_3 = 1.0f / v_102;
+        const float loss_8_3 = v_100 * per_a_7_3;
+        const float v_103 = v_94 - (v_96 * loss_8_3);
+        const float new_d_7_3 = new_d_7_2 * (v_77 * per_a_7_3);
+        const float v_104 = new_d_7_3 * v_82;
+        const float v_105 = v_79 + (v_78 * v_104);
+        const float u_6_8 = before->factors[59];
+        const float v_106 = v_59 + (u_6_7 * v_84);
+        const float v_107 = u_6_8 - (v_106 * loss_8);
+        const float v_108 = v_63 + (v_80 * v_88);
+        const float v_109 = v_107 - (v_108 * loss_8_2);
+        const float v_110 = v_70 + (v_81 * v_95);
+        const float v_111 = v_109 - (v_110 * loss_8_3);
+        const float v_112 = v_82 * v_104;
+        const float v_113 = v_83 + v_112;
+        const float per_a_7_4 = 1.0f / v_113;
+        const float loss_8_4 = v_111 * per_a_7_4;
+        after->factors[8] = v_103 - (v_105 * loss_8_4);
+        const float u_0_9 = before->factors[9];
+        const float d_8 = before->factors[68];
+        const float v_114 = u_0_8 * d_8;
+        const float v_115 = u_0_8 * v_114;
+        const float v_116 = v_115 + v_86;
+        const float per_a_8 = 1.0f / v_116;
+        const float loss_9 = u_0_9 * per_a_8;
+        const float v_117 = r_0 * loss_9;
+        const float new_d_8 = d_8 * (v_86 * per_a_8);
+        const float v_118 = new_d_8 * v_91;
+        const float v_119 = v_89 + (v_87 * v_118);
+        const float u_2_9 = before->factors[30];
+        const float v_120 = v_90 + (u_2_8 * v_114);
+        const float v_121 = u_2_9 - (v_120 * loss_9);
+        const float v_122 = v_91 * v_118;
+        const float v_123 = v_93 + v_122;
+        const float per_a_8_2 = 1.0f / v_123;
+        const float loss_9_2 = v_121 * per_a_8_2;
+        const float v_124 = v_117 - (v_119 * loss_9_2);
+        const float new_d_8_2 = new_d_8 * (v_93 * per_a_8_2);
+        const float v_125 = new_d_8_2 * v_100;
+        const float v_126 = v_96 + (v_94 * v_125);
+        const float u_4_9 = before->factors[47];
+        const float v_127 = v_97 + (u_4_8 * v_114);
+        const float v_128 = u_4_9 - (v_127 * loss_9);
+        const float v_129 = v_99 + (v_98 * v_118);
+        const float v_130 = v_128 - (v_129 * loss_9_2);
+        const float v_131 = v_100 * v_125;
+        const float v_132 = v_102 + v_131;
+        const float per_a_8_3 = 1.0f / v_132;
+        const float loss_9_3 = v_130 * per_a_8_3;
+        const float v_133 = v_124 - (v_126 * loss_9_3);
+        const float new_d_8_3 = new_d_8_2 * (v_102 * per_a_8_3);
+        const float v_134 = new_d_8_3 * v_111;
+        const float v_135 = v_105 + (v_103 * v_134);
+        const float u_6_9 = before->factors[60];
+        const float v_136 = v_106 + (u_6_8 * v_114);
+        const float v_137 = u_6_9 - (v_136 * loss_9);
+        const float v_138 = v_108 + (v_107 * v_118);
+        const float v_139 = v_137 - (v_138 * loss_9_2);
+        const float v_140 = v_110 + (v_109 * v_125);
+        const float v_141 = v_139 - (v_140 * loss_9_3);
+        const float v_142 = v_111 * v_134;
+        const float v_143 = v_113 + v_142;
+        const float per_a_8_4 = 1.0f / v_143;
+        const float loss_9_4 = v_141 * per_a_8_4;
+        after->factors[9] = v_133 - (v_135 * loss_9_4);
+        const float u_0_10 = before->factors[10];
+        const float d_9 = before->factors[72];
+        const float v_144 = u_0_9 * d_9;
+        const float v_145 = u_0_9 * v_144;
+        const float v_146 = v_145 + v_116;
+        const float per_a_9 = 1.0f / v_146;
+        const float loss_10 = u_0_10 * per_a_9;
+        const float v_147 = r_0 * loss_10;
+        const float new_d_9 = d_9 * (v_116 * per_a_9);
+        const float v_148 = new_d_9 * v_121;
+        const float v_149 = v_119 + (v_117 * v_148);
+        const float u_2_10 = before->factors[31];
+        const float v_150 = v_120 + (u_2_9 * v_144);
+        const float v_151 = u_2_10 - (v_150 * loss_10);
+        const float v_152 = v_121 * v_148;
+        const float v_153 = v_123 + v_152;
+        const float per_a_9_2 = 1.0f / v_153;
+        const float loss_10_2 = v_151 * per_a_9_2;
+        const float v_154 = v_147 - (v_149 * loss_10_2);
+        const float new_d_9_2 = new_d_9 * (v_123 * per_a_9_2);
+        const float v_155 = new_d_9_2 * v_130;
+        const float v_156 = v_126 + (v_124 * v_155);
+        const float u_4_10 = before->factors[48];
+        const float v_157 = v_127 + (u_4_9 * v_144);
+        const float v_158 = u_4_10 - (v_157 * loss_10);
+        const float v_159 = v_129 + (v_128 * v_148);
+        const float v_160 = v_158 - (v_159 * loss_10_2);
+        const float v_161 = v_130 * v_155;
+        const float v_162 = v_132 + v_161;
+        const float per_a_9_3 = 1.0f / v_162;
+        const float loss_10_3 = v_160 * per_a_9_3;
+        const float v_163 = v_154 - (v_156 * loss_10_3);
+        const float new_d_9_3 = new_d_9_2 * (v_132 * per_a_9_3);
+        const float v_164 = new_d_9_3 * v_141;
+        const float v_165 = v_135 + (v_133 * v_164);
+        const float u_6_10 = before->factors[61];
+        const float v_166 = v_136 + (u_6_9 * v_144);
+        const float v_167 = u_6_10 - (v_166 * loss_10);
+        const float v_168 = v_138 + (v_137 * v_148);
+        const float v_169 = v_167 - (v_168 * loss_10_2);
+        const float v_170 = v_140 + (v_139 * v_155);
+        const float v_171 = v_169 - (v_170 * loss_10_3);
+        const float v_172 = v_141 * v_164;
+        const float v_173 = v_143 + v_172;
+        const float per_a_9_4 = 1.0f / v_173;
+        const float loss_10_4 = v_171 * per_a_9_4;
+        after->factors[10] = v_163 - (v_165 * loss_10_4);
+        const float u_0_11 = before->factors[11];
+        const float d_10 = before->factors[75];
+        const float v_174 = u_0_10 * d_10;
+        const float v_175 = u_0_10 * v_174;
+        const float v_176 = v_175 + v_146;
+        const float per_a_10 = 1.0f / v_176;
+        const float loss_11 = u_0_11 * per_a_10;
+        const float v_177 = r_0 * loss_11;
+        const float new_d_10 = d_10 * (v_146 * per_a_10);
+        const float v_178 = new_d_10 * v_151;
+        const float v_179 = v_149 + (v_147 * v_178);
+        const float u_2_11 = before->factors[32];
+        const float v_180 = v_150 + (u_2_10 * v_174);
+        const float v_181 = u_2_11 - (v_180 * loss_11);
+        const float v_182 = v_151 * v_178;
+        const float v_183 = v_153 + v_182;
+        const float per_a_10_2 = 1.0f / v_183;
+        const float loss_11_2 = v_181 * per_a_10_2;
+        const float v_184 = v_177 - (v_179 * loss_11_2);
+        const float new_d_10_2 = new_d_10 * (v_153 * per_a_10_2);
+        const float v_185 = new_d_10_2 * v_160;
+        const float v_186 = v_156 + (v_154 * v_185);
+        const float u_4_11 = before->factors[49];
+        const float v_187 = v_157 + (u_4_10 * v_174);
+        const float v_188 = u_4_11 - (v_187 * loss_11);
+        const float v_189 = v_159 + (v_158 * v_178);
+        const float v_190 = v_188 - (v_189 * loss_11_2);
+        const float v_191 = v_160 * v_185;
+        const float v_192 = v_162 + v_191;
+        const float per_a_10_3 = 1.0f / v_192;
+        const float loss_11_3 = v_190 * per_a_10_3;
+        const float v_193 = v_184 - (v_186 * loss_11_3);
+        const float new_d_10_3 = new_d_10_2 * (v_162 * per_a_10_3);
+        const float v_194 = new_d_10_3 * v_171;
+        const float v_195 = v_165 + (v_163 * v_194);
+        const float u_6_11 = before->factors[62];
+        const float v_196 = v_166 + (u_6_10 * v_174);
+        const float v_197 = u_6_11 - (v_196 * loss_11);
+        const float v_198 = v_168 + (v_167 * v_178);
+        const float v_199 = v_197 - (v_198 * loss_11_2);
+        const float v_200 = v_170 + (v_169 * v_185);
+        const float v_201 = v_199 - (v_200 * loss_11_3);
+        const float v_202 = v_171 * v_194;
+        const float v_203 = v_173 + v_202;
+        const float per_a_10_4 = 1.0f / v_203;
+        const float loss_11_4 = v_201 * per_a_10_4;
+        after->factors[11] = v_193 - (v_195 * loss_11_4);
+        after->factors[12] = d_1 * (v * per_a_1);
+        const float u_1_2 = before->factors[13];
+        const float v_204 = u_1_2 - (v_2 * loss_2);
+        after->factors[13] = v_204;
+        const float u_1_3 = before->factors[14];
+        const float v_205 = v_2 + (u_1_2 * v_6);
+        const float v_206 = u_1_3 - (v_205 * loss_3);
+        const float v_207 = new_d_2 * v_204;
+        after->factors[14] = v_206 - (v_207 * loss_3_2);
+        const float u_1_4 = before->factors[15];
+        const float v_208 = v_205 + (u_1_3 * v_13);
+        const float v_209 = u_1_4 - (v_208 * loss_4);
+        const float v_210 = v_207 + (v_206 * v_17);
+        const float v_211 = v_209 - (v_210 * loss_4_2);
+        after->factors[15] = v_211;
+        const float u_1_5 = before->factors[16];
+        const float v_212 = v_208 + (u_1_4 * v_24);
+        const float v_213 = u_1_5 - (v_212 * loss_5);
+        const float v_214 = v_210 + (v_209 * v_28);
+        const float v_215 = v_213 - (v_214 * loss_5_2);
+        const float v_216 = new_d_4_2 * v_211;
+        after->factors[16] = v_215 - (v_216 * loss_5_3);
+        const float u_1_6 = before->factors[17];
+        const float v_217 = v_212 + (u_1_5 * v_39);
+        const float v_218 = u_1_6 - (v_217 * loss_6);
+        const float v_219 = v_214 + (v_213 * v_43);
+        const float v_220 = v_218 - (v_219 * loss_6_2);
+        const float v_221 = v_216 + (v_215 * v_50);
+        const float v_222 = v_220 - (v_221 * loss_6_3);
+        after->factors[17] = v_222;
+        const float u_1_7 = before->factors[18];
+        const float v_223 = v_217 + (u_1_6 * v_59);
+        const float v_224 = u_1_7 - (v_223 * loss_7);
+        const float v_225 = v_219 + (v_218 * v_63);
+        const float v_226 = v_224 - (v_225 * loss_7_2);
+        const float v_227 = v_221 + (v_220 * v_70);
+        const float v_228 = v_226 - (v_227 * loss_7_3);
+        const float v_229 = new_d_6_3 * v_222;
+        after->factors[18] = v_228 - (v_229 * loss_7_4);
+        const float u_1_8 = before->factors[19];
+        const float v_230 = v_223 + (u_1_7 * v_84);
+        const float v_231 = u_1_8 - (v_230 * loss_8);
+        const float v_232 = v_225 + (v_224 * v_88);
+        const float v_233 = v_231 - (v_232 * loss_8_2);
+        const float v_234 = v_227 + (v_226 * v_95);
+        const float v_235 = v_233 - (v_234 * loss_8_3);
+        const float v_236 = v_229 + (v_228 * v_104);
+        after->factors[19] = v_235 - (v_236 * loss_8_4);
+        const float u_1_9 = before->factors[20];
+        const float v_237 = v_230 + (u_1_8 * v_114);
+        const float v_238 = u_1_9 - (v_237 * loss_9);
+        const float v_239 = v_232 + (v_231 * v_118);
+        const float v_240 = v_238 - (v_239 * loss_9_2);
+        const float v_241 = v_234 + (v_233 * v_125);
+        const float v_242 = v_240 - (v_241 * loss_9_3);
+        const float v_243 = v_236 + (v_235 * v_134);
+        after->factors[20] = v_242 - (v_243 * loss_9_4);
+        const float u_1_10 = before->factors[21];
+        const float v_244 = v_237 + (u_1_9 * v_144);
+        const float v_245 = u_1_10 - (v_244 * loss_10);
+        const float v_246 = v_239 + (v_238 * v_148);
+        const float v_247 = v_245 - (v_246 * loss_10_2);
+        const float v_248 = v_241 + (v_240 * v_155);
+        const float v_249 = v_247 - (v_248 * loss_10_3);
+        const float v_250 = v_243 + (v_242 * v_164);
+        after->factors[21] = v_249 - (v_250 * loss_10_4);
+        const float u_1_11 = before->factors[22];
+        const float v_251 = v_244 + (u_1_10 * v_174);
+        const float v_252 = u_1_11 - (v_251 * loss_11);
+        const float v_253 = v_246 + (v_245 * v_178);
+        const float v_254 = v_252 - (v_253 * loss_11_2);
+        const float v_255 = v_248 + (v_247 * v_185);
+        const float v_256 = v_254 - (v_255 * loss_11_3);
+        const float v_257 = v_250 + (v_249 * v_194);
+        after->factors[22] = v_256 - (v_257 * loss_11_4);
+        after->factors[23] = new_d_2 * (r_1 * per_a_2_2);
+        after->factors[24] = r_1 * loss_3_2;
+        const float v_258 = r_1 * loss_4_2;
+        after->factors[25] = v_258;
+        const float v_259 = r_1 * loss_5_2;
+        const float v_260 = new_d_4_2 * v_258;
+        after->factors[26] = v_259 - (v_260 * loss_5_3);
+        const float v_261 = r_1 * loss_6_2;
+        const float v_262 = v_260 + (v_259 * v_50);
+        const float v_263 = v_261 - (v_262 * loss_6_3);
+        after->factors[27] = v_263;
+        const float v_264 = r_1 * loss_7_2;
+        const float v_265 = v_262 + (v_261 * v_70);
+        const float v_266 = v_264 - (v_265 * loss_7_3);
+        const float v_267 = new_d_6_3 * v_263;
+        after->factors[28] = v_266 - (v_267 * loss_7_4);
+        const float v_268 = r_1 * loss_8_2;
+        const float v_269 = v_265 + (v_264 * v_95);
+        const float v_270 = v_268 - (v_269 * loss_8_3);
+        const float v_271 = v_267 + (v_266 * v_104);
+        after->factors[29] = v_270 - (v_271 * loss_8_4);
+        const float v_272 = r_1 * loss_9_2;
+        const float v_273 = v_269 + (v_268 * v_125);
+        const float v_274 = v_272 - (v_273 * loss_9_3);
+        const float v_275 = v_271 + (v_270 * v_134);
+        after->factors[30] = v_274 - (v_275 * loss_9_4);
+        const float v_276 = r_1 * loss_10_2;
+        const float v_277 = v_273 + (v_272 * v_155);
+        const float v_278 = v_276 - (v_277 * loss_10_3);
+        const float v_279 = v_275 + (v_274 * v_164);
+        after->factors[31] = v_278 - (v_279 * loss_10_4);
+        const float v_280 = r_1 * loss_11_2;
+        const float v_281 = v_277 + (v_276 * v_185);
+        const float v_282 = v_280 - (v_281 * loss_11_3);
+        const float v_283 = v_279 + (v_278 * v_194);
+        after->factors[32] = v_282 - (v_283 * loss_11_4);
+        after->factors[33] = new_d_3 * (v_12 * per_a_3_2);
+        const float u_3_4 = before->factors[34];
+        const float v_284 = u_3_4 - (v_13 * loss_4);
+        const float v_285 = v_284 - (v_17 * loss_4_2);
+        after->factors[34] = v_285;
+        const float u_3_5 = before->factors[35];
+        const float v_286 = v_13 + (u_3_4 * v_24);
+        const float v_287 = u_3_5 - (v_286 * loss_5);
+        const float v_288 = v_17 + (v_284 * v_28);
+        const float v_289 = v_287 - (v_288 * loss_5_2);
+        const float v_290 = new_d_4_2 * v_285;
+        after->factors[35] = v_289 - (v_290 * loss_5_3);
+        const float u_3_6 = before->factors[36];
+        const float v_291 = v_286 + (u_3_5 * v_39);
+        const float v_292 = u_3_6 - (v_291 * loss_6);
+        const float v_293 = v_288 + (v_287 * v_43);
+        const float v_294 = v_292 - (v_293 * loss_6_2);
+        const float v_295 = v_290 + (v_289 * v_50);
+        const float v_296 = v_294 - (v_295 * loss_6_3);
+        after->factors[36] = v_296;
+        const float u_3_7 = before->factors[37];
+        const float v_297 = v_291 + (u_3_6 * v_59);
+        const float v_298 = u_3_7 - (v_297 * loss_7);
+        const float v_299 = v_293 + (v_292 * v_63);
+        const float v_300 = v_298 - (v_299 * loss_7_2);
+        const float v_301 = v_295 + (v_294 * v_70);
+        const float v_302 = v_300 - (v_301 * loss_7_3);
+        const float v_303 = new_d_6_3 * v_296;
+        after->factors[37] = v_302 - (v_303 * loss_7_4);
+        const float u_3_8 = before->factors[38];
+        const float v_304 = v_297 + (u_3_7 * v_84);
+        const float v_305 = u_3_8 - (v_304 * loss_8);
+        const float v_306 = v_299 + (v_298 * v_88);
+        const float v_307 = v_305 - (v_306 * loss_8_2);
+        const float v_308 = v_301 + (v_300 * v_95);
+        const float v_309 = v_307 - (v_308 * loss_8_3);
+        const float v_310 = v_303 + (v_302 * v_104);
+        after->factors[38] = v_309 - (v_310 * loss_8_4);
+        const float u_3_9 = before->factors[39];
+        const float v_311 = v_304 + (u_3_8 * v_114);
+        const float v_312 = u_3_9 - (v_311 * loss_9);
+        const float v_313 = v_306 + (v_305 * v_118);
+        const float v_314 = v_312 - (v_313 * loss_9_2);
+        const float v_315 = v_308 + (v_307 * v_125);
+        const float v_316 = v_314 - (v_315 * loss_9_3);
+        const float v_317 = v_310 + (v_309 * v_134);
+        after->factors[39] = v_316 - (v_317 * loss_9_4);
+        const float u_3_10 = before->factors[40];
+        const float v_318 = v_311 + (u_3_9 * v_144);
+        const float v_319 = u_3_10 - (v_318 * loss_10);
+        const float v_320 = v_313 + (v_312 * v_148);
+        const float v_321 = v_319 - (v_320 * loss_10_2);
+        const float v_322 = v_315 + (v_314 * v_155);
+        const float v_323 = v_321 - (v_322 * loss_10_3);
+        const float v_324 = v_317 + (v_316 * v_164);
+        after->factors[40] = v_323 - (v_324 * loss_10_4);
+        const float u_3_11 = before->factors[41];
+        const float v_325 = v_318 + (u_3_10 * v_174);
+        const float v_326 = u_3_11 - (v_325 * loss_11);
+        const float v_327 = v_320 + (v_319 * v_178);
+        const float v_328 = v_326 - (v_327 * loss_11_2);
+        const float v_329 = v_322 + (v_321 * v_185);
+        const float v_330 = v_328 - (v_329 * loss_11_3);
+        const float v_331 = v_324 + (v_323 * v_194);
+        after->factors[41] = v_330 - (v_331 * loss_11_4);
+        after->factors[42] = new_d_4_2 * (r_2 * per_a_4_3);
+        after->factors[43] = r_2 * loss_5_3;
+        const float v_332 = r_2 * loss_6_3;
+        after->factors[44] = v_332;
+        const float v_333 = r_2 * loss_7_3;
+        const float v_334 = new_d_6_3 * v_332;
+        after->factors[45] = v_333 - (v_334 * loss_7_4);
+        const float v_335 = r_2 * loss_8_3;
+        const float v_336 = v_334 + (v_333 * v_104);
+        after->factors[46] = v_335 - (v_336 * loss_8_4);
+        const float v_337 = r_2 * loss_9_3;
+        const float v_338 = v_336 + (v_335 * v_134);
+        after->factors[47] = v_337 - (v_338 * loss_9_4);
+        const float v_339 = r_2 * loss_10_3;
+        const float v_340 = v_338 + (v_337 * v_164);
+        after->factors[48] = v_339 - (v_340 * loss_10_4);
+        const float v_341 = r_2 * loss_11_3;
+        const float v_342 = v_340 + (v_339 * v_194);
+        after->factors[49] = v_341 - (v_342 * loss_11_4);
+        after->factors[50] = new_d_5_2 * (v_38 * per_a_5_3);
+        const float u_5_6 = before->factors[51];
+        const float v_343 = u_5_6 - (v_39 * loss_6);
+        const float v_344 = v_343 - (v_43 * loss_6_2);
+        const float v_345 = v_344 - (v_50 * loss_6_3);
+        after->factors[51] = v_345;
+        const float u_5_7 = before->factors[52];
+        const float v_346 = v_39 + (u_5_6 * v_59);
+        const float v_347 = u_5_7 - (v_346 * loss_7);
+        const float v_348 = v_43 + (v_343 * v_63);
+        const float v_349 = v_347 - (v_348 * loss_7_2);
+        const float v_350 = v_50 + (v_344 * v_70);
+        const float v_351 = v_349 - (v_350 * loss_7_3);
+        const float v_352 = new_d_6_3 * v_345;
+        after->factors[52] = v_351 - (v_352 * loss_7_4);
+        const float u_5_8 = before->factors[53];
+        const float v_353 = v_346 + (u_5_7 * v_84);
+        const float v_354 = u_5_8 - (v_353 * loss_8);
+        const float v_355 = v_348 + (v_347 * v_88);
+        const float v_356 = v_354 - (v_355 * loss_8_2);
+        const float v_357 = v_350 + (v_349 * v_95);
+        const float v_358 = v_356 - (v_357 * loss_8_3);
+        const float v_359 = v_352 + (v_351 * v_104);
+        after->factors[53] = v_358 - (v_359 * loss_8_4);
+        const float u_5_9 = before->factors[54];
+        const float v_360 = v_353 + (u_5_8 * v_114);
+        const float v_361 = u_5_9 - (v_360 * loss_9);
+        const float v_362 = v_355 + (v_354 * v_118);
+        const float v_363 = v_361 - (v_362 * loss_9_2);
+        const float v_364 = v_357 + (v_356 * v_125);
+        const float v_365 = v_363 - (v_364 * loss_9_3);
+        const float v_366 = v_359 + (v_358 * v_134);
+        after->factors[54] = v_365 - (v_366 * loss_9_4);
+        const float u_5_10 = before->factors[55];
+        const float v_367 = v_360 + (u_5_9 * v_144);
+        const float v_368 = u_5_10 - (v_367 * loss_10);
+        const float v_369 = v_362 + (v_361 * v_148);
+        const float v_370 = v_368 - (v_369 * loss_10_2);
+        const float v_371 = v_364 + (v_363 * v_155);
+        const float v_372 = v_370 - (v_371 * loss_10_3);
+        const float v_373 = v_366 + (v_365 * v_164);
+        after->factors[55] = v_372 - (v_373 * loss_10_4);
+        const float u_5_11 = before->factors[56];
+        const float v_374 = v_367 + (u_5_10 * v_174);
+        const float v_375 = u_5_11 - (v_374 * loss_11);
+        const float v_376 = v_369 + (v_368 * v_178);
+        const float v_377 = v_375 - (v_376 * loss_11_2);
+        const float v_378 = v_371 + (v_370 * v_185);
+        const float v_379 = v_377 - (v_378 * loss_11_3);
+        const float v_380 = v_373 + (v_372 * v_194);
+        after->factors[56] = v_379 - (v_380 * loss_11_4);
+        after->factors[57] = new_d_6_3 * (r_3 * per_a_6_4);
+        after->factors[58] = r_3 * loss_7_4;
+        after->factors[59] = r_3 * loss_8_4;
+        after->factors[60] = r_3 * loss_9_4;
+        after->factors[61] = r_3 * loss_10_4;
+        after->factors[62] = r_3 * loss_11_4;
+        after->factors[63] = new_d_7_3 * (v_83 * per_a_7_4);
+        const float u_7_8 = before->factors[64];
+        const float v_381 = u_7_8 - (v_84 * loss_8);
+        const float v_382 = v_381 - (v_88 * loss_8_2);
+        const float v_383 = v_382 - (v_95 * loss_8_3);
+        after->factors[64] = v_383 - (v_104 * loss_8_4);
+        const float u_7_9 = before->factors[65];
+        const float v_384 = v_84 + (u_7_8 * v_114);
+        const float v_385 = u_7_9 - (v_384 * loss_9);
+        const float v_386 = v_88 + (v_381 * v_118);
+        const float v_387 = v_385 - (v_386 * loss_9_2);
+        const float v_388 = v_95 + (v_382 * v_125);
+        const float v_389 = v_387 - (v_388 * loss_9_3);
+        const float v_390 = v_104 + (v_383 * v_134);
+        after->factors[65] = v_389 - (v_390 * loss_9_4);
+        const float u_7_10 = before->factors[66];
+        const float v_391 = v_384 + (u_7_9 * v_144);
+        const float v_392 = u_7_10 - (v_391 * loss_10);
+        const float v_393 = v_386 + (v_385 * v_148);
+        const float v_394 = v_392 - (v_393 * loss_10_2);
+        const float v_395 = v_388 + (v_387 * v_155);
+        const float v_396 = v_394 - (v_395 * loss_10_3);
+        const float v_397 = v_390 + (v_389 * v_164);
+        after->factors[66] = v_396 - (v_397 * loss_10_4);
+        const float u_7_11 = before->factors[67];
+        const float v_398 = v_391 + (u_7_10 * v_174);
+        const float v_399 = u_7_11 - (v_398 * loss_11);
+        const float v_400 = v_393 + (v_392 * v_178);
+        const float v_401 = v_399 - (v_400 * loss_11_2);
+        const float v_402 = v_395 + (v_394 * v_185);
+        const float v_403 = v_401 - (v_402 * loss_11_3);
+        const float v_404 = v_397 + (v_396 * v_194);
+        after->factors[67] = v_403 - (v_404 * loss_11_4);
+        after->factors[68] = new_d_8_3 * (v_113 * per_a_8_4);
+        const float u_8_9 = before->factors[69];
+        const float v_405 = u_8_9 - (v_114 * loss_9);
+        const float v_406 = v_405 - (v_118 * loss_9_2);
+        const float v_407 = v_406 - (v_125 * loss_9_3);
+        after->factors[69] = v_407 - (v_134 * loss_9_4);
+        const float u_8_10 = before->factors[70];
+        const float v_408 = v_114 + (u_8_9 * v_144);
+        const float v_409 = u_8_10 - (v_408 * loss_10);
+        const float v_410 = v_118 + (v_405 * v_148);
+        const float v_411 = v_409 - (v_410 * loss_10_2);
+        const float v_412 = v_125 + (v_406 * v_155);
+        const float v_413 = v_411 - (v_412 * loss_10_3);
+        const float v_414 = v_134 + (v_407 * v_164);
+        after->factors[70] = v_413 - (v_414 * loss_10_4);
+        const float u_8_11 = before->factors[71];
+        const float v_415 = v_408 + (u_8_10 * v_174);
+        const float v_416 = u_8_11 - (v_415 * loss_11);
+        const float v_417 = v_410 + (v_409 * v_178);
+        const float v_418 = v_416 - (v_417 * loss_11_2);
+        const float v_419 = v_412 + (v_411 * v_185);
+        const float v_420 = v_418 - (v_419 * loss_11_3);
+        const float v_421 = v_414 + (v_413 * v_194);
+        after->factors[71] = v_420 - (v_421 * loss_11_4);
+        after->factors[72] = new_d_9_3 * (v_143 * per_a_9_4);
+        const float u_9_10 = before->factors[73];
+        const float v_422 = u_9_10 - (v_144 * loss_10);
+        const float v_423 = v_422 - (v_148 * loss_10_2);
+        const float v_424 = v_423 - (v_155 * loss_10_3);
+        after->factors[73] = v_424 - (v_164 * loss_10_4);
+        const float u_9_11 = before->factors[74];
+        const float v_425 = v_144 + (u_9_10 * v_174);
+        const float v_426 = u_9_11 - (v_425 * loss_11);
+        const float v_427 = v_148 + (v_422 * v_178);
+        const float v_428 = v_426 - (v_427 * loss_11_2);
+        const float v_429 = v_155 + (v_423 * v_185);
+        const float v_430 = v_428 - (v_429 * loss_11_3);
+        const float v_431 = v_164 + (v_424 * v_194);
+        after->factors[74] = v_430 - (v_431 * loss_11_4);
+        after->factors[75] = new_d_10_3 * (v_173 * per_a_10_4);
+        const float u_10_11 = before->factors[76];
+        const float v_432 = u_10_11 - (v_174 * loss_11);
+        const float v_433 = v_432 - (v_178 * loss_11_2);
+        const float v_434 = v_433 - (v_185 * loss_11_3);
+        after->factors[76] = v_434 - (v_194 * loss_11_4);
+        const float d_11 = before->factors[77];
+        const float v_435 = u_0_11 * d_11;
+        const float v_436 = u_0_11 * v_435;
+        const float s = v_436 + v_176;
+        const float per_a_11 = 1.0f / s;
+        const float new_d_11 = d_11 * (v_176 * per_a_11);
+        const float v_437 = new_d_11 * v_181;
+        const float v_438 = v_181 * v_437;
+        const float s_2 = v_183 + v_438;
+        const float per_a_11_2 = 1.0f / s_2;
+        const float new_d_11_2 = new_d_11 * (v_183 * per_a_11_2);
+        const float v_439 = new_d_11_2 * v_190;
+        const float v_440 = v_190 * v_439;
+        const float s_3 = v_192 + v_440;
+        const float per_a_11_3 = 1.0f / s_3;
+        const float new_d_11_3 = new_d_11_2 * (v_192 * per_a_11_3);
+        const float v_441 = new_d_11_3 * v_201;
+        const float v_442 = v_201 * v_441;
+        const float s_4 = v_203 + v_442;
+        const float per_a_11_4 = 1.0f / s_4;
+        after->factors[77] = new_d_11_3 * (v_203 * per_a_11_4);
+        const float v_443 = v_175 + (v_145 + (v_115 + (v_85 + (v_60 + (v_40 + (v_25 + (v_14 + (v_7 + (d_0 +
+            v_3)))))))));
+        const float weighted_e = residual_0 * per_a_11;
+        const float v_444 = (v_180 + (u_2_11 * v_435)) * weighted_e;
+        const float e = residual_1 - v_444;
+        const float weighted_e_2 = per_a_11_2 * e;
+        const float v_445 = ((v_187 + (u_4_11 * v_435)) * weighted_e) + ((v_189 + (v_188 * v_437)) * weighted_e_2);
+        const float e_2 = residual_2 - v_445;
+        const float weighted_e_3 = per_a_11_3 * e_2;
+        const float v_446 = (((v_436 + v_443) * weighted_e) + ((v_179 + (v_177 * v_437)) * weighted_e_2)) + ((v_186 +
+            (v_184 * v_439)) * weighted_e_3);
+        const float v_447 = ((v_196 + (u_6_11 * v_435)) * weighted_e) + ((v_198 + (v_197 * v_437)) * weighted_e_2);
+        const float v_448 = v_447 + ((v_200 + (v_199 * v_439)) * weighted_e_3);
+        const float e_3 = residual_3 - v_448;
+        const float weighted_e_4 = per_a_11_4 * e_3;
+        delta[0] = v_446 + ((v_195 + (v_193 * v_441)) * weighted_e_4);
+        const float v_449 = ((v_251 + (u_1_11 * v_435)) * weighted_e) + ((v_253 + (v_252 * v_437)) * weighted_e_2);
+        delta[1] = (v_449 + ((v_255 + (v_254 * v_439)) * weighted_e_3)) + ((v_257 + (v_256 * v_441)) * weighted_e_4);
+        const float v_450 = ((((((((new_d_2 + v_21) + v_32) + v_47) + v_67) + v_92) + v_122) + v_152) + v_182) + v_438;
+        delta[2] = ((v_444 + (v_450 * weighted_e_2)) + ((v_281 + (v_280 * v_439)) * weighted_e_3)) + ((v_283 + (v_282 *
+            v_441)) * weighted_e_4);
+        const float v_451 = ((v_325 + (u_3_11 * v_435)) * weighted_e) + ((v_327 + (v_326 * v_437)) * weighted_e_2);
+        delta[3] = (v_451 + ((v_329 + (v_328 * v_439)) * weighted_e_3)) + ((v_331 + (v_330 * v_441)) * weighted_e_4);
+        const float v_452 = (((((((new_d_4_2 + v_56) + v_76) + v_101) + v_131) + v_161) + v_191) + v_440) *
+            weighted_e_3;
+        delta[4] = (v_445 + v_452) + ((v_342 + (v_341 * v_441)) * weighted_e_4);
+        const float v_453 = ((v_374 + (u_5_11 * v_435)) * weighted_e) + ((v_376 + (v_375 * v_437)) * weighted_e_2);
+        delta[5] = (v_453 + ((v_378 + (v_377 * v_439)) * weighted_e_3)) + ((v_380 + (v_379 * v_441)) * weighted_e_4);
+        delta[6] = v_448 + ((((((new_d_6_3 + v_112) + v_142) + v_172) + v_202) + v_442) * weighted_e_4);
+        const float v_454 = ((v_398 + (u_7_11 * v_435)) * weighted_e) + ((v_400 + (v_399 * v_437)) * weighted_e_2);
+        delta[7] = (v_454 + ((v_402 + (v_401 * v_439)) * weighted_e_3)) + ((v_404 + (v_403 * v_441)) * weighted_e_4);
+        const float v_455 = ((v_415 + (u_8_11 * v_435)) * weighted_e) + ((v_417 + (v_416 * v_437)) * weighted_e_2);
+        delta[8] = (v_455 + ((v_419 + (v_418 * v_439)) * weighted_e_3)) + ((v_421 + (v_420 * v_441)) * weighted_e_4);
+        const float v_456 = ((v_425 + (u_9_11 * v_435)) * weighted_e) + ((v_427 + (v_426 * v_437)) * weighted_e_2);
+        delta[9] = (v_456 + ((v_429 + (v_428 * v_439)) * weighted_e_3)) + ((v_431 + (v_430 * v_441)) * weighted_e_4);
+        const float v_457 = ((v_174 + (u_10_11 * v_435)) * weighted_e) + ((v_178 + (v_432 * v_437)) * weighted_e_2);
+        delta[10] = (v_457 + ((v_185 + (v_433 * v_439)) * weighted_e_3)) + ((v_194 + (v_434 * v_441)) * weighted_e_4);
+        delta[11] = (((v_435 * weighted_e) + (v_437 * weighted_e_2)) + (v_439 * weighted_e_3)) + (v_441 * weighted_e_4);
+        nis[0] = (((residual_0 * weighted_e) + (e * weighted_e_2)) + (e_2 * weighted_e_3)) + (e_3 * weighted_e_4);
+        row_variance[0] = s;
+        row_variance[1] = s_2;
+        row_variance[2] = s_3;
+        row_variance[3] = s_4;
+    }
+
+    /* row 4: d = d + K e, Bierman's update of U and D */
+    /* row 5: d = d + K e, Bierman's update of U and D */
+    {
+        const float u_0_9 = after->factors[9];
+        const float u_0_8 = after->factors[8];
+        const float d_8 = after->factors[68];
+        const float v = u_0_8 * d_8;
+        const float u_8_9 = after->factors[69];
+        const float r_4 = params->variance_pose[4];
+        const float v_2 = r_4 + d_8;
+        const float per_a_8 = 1.0f / ((v_2 >= 1.0e-20f) ? v_2 : 1.0f);
+        const float loss_9 = u_8_9 * per_a_8;
+        after->factors[9] = u_0_9 - (v * loss_9);
+        const float u_0_10 = after->factors[10];
+        const float d_9 = after->factors[72];
+        const float v_3 = u_8_9 * d_9;
+        const float v_4 = v + (u_0_9 * v_3);
+        const float u_8_10 = after->factors[70];
+        const float v_5 = u_8_9 * v_3;
+        const float v_6 = v_2 + v_5;
+        const float per_a_9 = 1.0f / v_6;
+        const float loss_10 = u_8_10 * per_a_9;
+        const float v_7 = u_0_10 - (v_4 * loss_10);
+        after->factors[10] = v_7;
+        const float u_0_11 = after->factors[11];
+        const float d_10 = after->factors[75];
+        const float v_8 = u_8_10 * d_10;
+        const float v_9 = v_4 + (u_0_10 * v_8);
+        const float u_8_11 = after->factors[71];
+        const float v_10 = u_8_10 * v_8;
+        const float v_11 = v_6 + v_10;
+        const float per_a_10 = 1.0f / v_11;
+        const float loss_11 = u_8_11 * per_a_10;
+        const float v_12 = u_0_11 - (v_9 * loss_11);
+        const float new_d_10 = d_10 * (v_6 * per_a_10);
+        const float v_13 = new_d_10 * v_7;
+        const float u_10_11 = after->factors[76];
+        const float v_14 = u_10_11 - (v_8 * loss_11);
+        const float r_5 = params->variance_pose[5];
+        const float v_15 = r_5 + new_d_10;
+        const float per_a_10_2 = 1.0f / ((v_15 >= 1.0e-20f) ? v_15 : 1.0f);
+        const float loss_11_2 = v_14 * per_a_10_2;
+        after->factors[11] = v_12 - (v_13 * loss_11_2);
+        const float u_1_9 = after->factors[20];
+        const float u_1_8 = after->factors[19];
+        const float v_16 = u_1_8 * d_8;
+        after->factors[20] = u_1_9 - (v_16 * loss_9);
+        const float u_1_10 = after->factors[21];
+        const float v_17 = v_16 + (u_1_9 * v_3);
+        const float v_18 = u_1_10 - (v_17 * loss_10);
+        after->factors[21] = v_18;
+        const float u_1_11 = after->factors[22];
+        const float v_19 = v_17 + (u_1_10 * v_8);
+        const float v_20 = u_1_11 - (v_19 * loss_11);
+        const float v_21 = new_d_10 * v_18;
+        after->factors[22] = v_20 - (v_21 * loss_11_2);
+        const float u_2_9 = after->factors[30];
+        const float u_2_8 = after->factors[29];
+        const float v_22 = u_2_8 * d_8;
+        after->factors[30] = u_2_9 - (v_22 * loss_9);
+        const float u_2_10 = after->factors[31];
+        const float v_23 = v_22 + (u_2_9 * v_3);
+        const float v_24 = u_2_10 - (v_23 * loss_10);
+        after->factors[31] = v_24;
+        const float u_2_11 = after->factors[32];
+        const float v_25 = v_23 + (u_2_10 * v_8);
+        const float v_26 = u_2_11 - (v_25 * loss_11);
+        const float v_27 = new_d_10 * v_24;
+        after->factors[32] = v_26 - (v_27 * loss_11_2);
+        const float u_3_9 = after->factors[39];
+        const float u_3_8 = after->factors[38];
+        const float v_28 = u_3_8 * d_8;
+        after->factors[39] = u_3_9 - (v_28 * loss_9);
+        const float u_3_10 = after->factors[40];
+        const float v_29 = v_28 + (u_3_9 * v_3);
+        const float v_30 = u_3_10 - (v_29 * loss_10);
+        after->factors[40] = v_30;
+        const float u_3_11 = after->factors[41];
+        const float v_31 = v_29 + (u_3_10 * v_8);
+        const float v_32 = u_3_11 - (v_31 * loss_11);
+        const float v_33 = new_d_10 * v_30;
+        after->factors[41] = v_32 - (v_33 * loss_11_2);
+        const float u_4_9 = after->factors[47];
+        const float u_4_8 = after->factors[46];
+        const float v_34 = u_4_8 * d_8;
+        after->factors[47] = u_4_9 - (v_34 * loss_9);
+        const float u_4_10 = after->factors[48];
+        const float v_35 = v_34 + (u_4_9 * v_3);
+        const float v_36 = u_4_10 - (v_35 * loss_10);
+        after->factors[48] = v_36;
+        const float u_4_11 = after->factors[49];
+        const float v_37 = v_35 + (u_4_10 * v_8);
+        const float v_38 = u_4_11 - (v_37 * loss_11);
+        const float v_39 = new_d_10 * v_36;
+        after->factors[49] = v_38 - (v_39 * loss_11_2);
+        const float u_5_9 = after->factors[54];
+        const float u_5_8 = after->factors[53];
+        const float v_40 = u_5_8 * d_8;
+        after->factors[54] = u_5_9 - (v_40 * loss_9);
+        const float u_5_10 = after->factors[55];
+        const float v_41 = v_40 + (u_5_9 * v_3);
+        const float v_42 = u_5_10 - (v_41 * loss_10);
+        after->factors[55] = v_42;
+        const float u_5_11 = after->factors[56];
+        const float v_43 = v_41 + (u_5_10 * v_8);
+        const float v_44 = u_5_11 - (v_43 * loss_11);
+        const float v_45 = new_d_10 * v_42;
+        after->factors[56] = v_44 - (v_45 * loss_11_2);
+        const float u_6_9 = after->factors[60];
+        const float u_6_8 = after->factors[59];
+        const float v_46 = u_6_8 * d_8;
+        after->factors[60] = u_6_9 - (v_46 * loss_9);
+        const float u_6_10 = after->factors[61];
+        const float v_47 = v_46 + (u_6_9 * v_3);
+        const float v_48 = u_6_10 - (v_47 * loss_10);
+        after->factors[61] = v_48;
+        const float u_6_11 = after->factors[62];
+        const float v_49 = v_47 + (u_6_10 * v_8);
+        const float v_50 = u_6_11 - (v_49 * loss_11);
+        const float v_51 = new_d_10 * v_48;
+        after->factors[62] = v_50 - (v_51 * loss_11_2);
+        const float u_7_9 = after->factors[65];
+        const float u_7_8 = after->factors[64];
+        const float v_52 = u_7_8 * d_8;
+        after->factors[65] = u_7_9 - (v_52 * loss_9);
+        const float u_7_10 = after->factors[66];
+        const float v_53 = v_52 + (u_7_9 * v_3);
+        const float v_54 = u_7_10 - (v_53 * loss_10);
+        after->factors[66] = v_54;
+        const float u_7_11 = after->factors[67];
+        const float v_55 = v_53 + (u_7_10 * v_8);
+        const float v_56 = u_7_11 - (v_55 * loss_11);
+        const float v_57 = new_d_10 * v_54;
+        after->factors[67] = v_56 - (v_57 * loss_11_2);
+        after->factors[68] = d_8 * (r_4 * per_a_8);
+        after->factors[69] = r_4 * loss_9;
+        const float v_58 = r_4 * loss_10;
+        after->factors[70] = v_58;
+        const float v_59 = r_4 * loss_11;
+        const float v_60 = new_d_10 * v_58;
+        after->factors[71] = v_59 - (v_60 * loss_11_2);
+        after->factors[72] = d_9 * (v_2 * per_a_9);
+        const float u_9_10 = after->factors[73];
+        const float v_61 = u_9_10 - (v_3 * loss_10);
+        after->factors[73] = v_61;
+        const float u_9_11 = after->factors[74];
+        const float v_62 = v_3 + (u_9_10 * v_8);
+        const float v_63 = u_9_11 - (v_62 * loss_11);
+        const float v_64 = new_d_10 * v_61;
+        after->factors[74] = v_63 - (v_64 * loss_11_2);
+        after->factors[75] = new_d_10 * (r_5 * per_a_10_2);
+        after->factors[76] = r_5 * loss_11_2;
+        const float d_11 = after->factors[77];
+        const float v_65 = u_8_11 * d_11;
+        const float v_66 = u_8_11 * v_65;
+        const float s = v_11 + v_66;
+        const float per_a_11 = 1.0f / s;
+        const float new_d_11 = d_11 * (v_11 * per_a_11);
+        const float v_67 = new_d_11 * v_14;
+        const float v_68 = v_14 * v_67;
+        const float s_2 = v_15 + v_68;
+        const float per_a_11_2 = 1.0f / s_2;
+        after->factors[77] = new_d_11 * (v_15 * per_a_11_2);
+        const float delta_8 = delta[8];
+        const float e = residual_4 - delta_8;
+        const float weighted_e = per_a_11 * e;
+        const float v_69 = delta[10] + ((v_8 + (u_10_11 * v_65)) * weighted_e);
+        const float e_2 = residual_5 - v_69;
+        const float weighted_e_2 = per_a_11_2 * e_2;
+        delta[0] = (delta[0] + ((v_9 + (u_0_11 * v_65)) * weighted_e)) + ((v_13 + (v_12 * v_67)) * weighted_e_2);
+        delta[1] = (delta[1] + ((v_19 + (u_1_11 * v_65)) * weighted_e)) + ((v_21 + (v_20 * v_67)) * weighted_e_2);
+        delta[2] = (delta[2] + ((v_25 + (u_2_11 * v_65)) * weighted_e)) + ((v_27 + (v_26 * v_67)) * weighted_e_2);
+        delta[3] = (delta[3] + ((v_31 + (u_3_11 * v_65)) * weighted_e)) + ((v_33 + (v_32 * v_67)) * weighted_e_2);
+        delta[4] = (delta[4] + ((v_37 + (u_4_11 * v_65)) * weighted_e)) + ((v_39 + (v_38 * v_67)) * weighted_e_2);
+        delta[5] = (delta[5] + ((v_43 + (u_5_11 * v_65)) * weighted_e)) + ((v_45 + (v_44 * v_67)) * weighted_e_2);
+        delta[6] = (delta[6] + ((v_49 + (u_6_11 * v_65)) * weighted_e)) + ((v_51 + (v_50 * v_67)) * weighted_e_2);
+        delta[7] = (delta[7] + ((v_55 + (u_7_11 * v_65)) * weighted_e)) + ((v_57 + (v_56 * v_67)) * weighted_e_2);
+        delta[8] = (delta_8 + ((((d_8 + v_5) + v_10) + v_66) * weighted_e)) + ((v_60 + (v_59 * v_67)) * weighted_e_2);
+        delta[9] = (delta[9] + ((v_62 + (u_9_11 * v_65)) * weighted_e)) + ((v_64 + (v_63 * v_67)) * weighted_e_2);
+        delta[10] = v_69 + ((new_d_10 + v_68) * weighted_e_2);
+        delta[11] = (delta[11] + (v_65 * weighted_e)) + (v_67 * weighted_e_2);
+        nis[0] = (nis[0] + (e * weighted_e)) + (e_2 * weighted_e_2);
+        row_variance[4] = s;
+        row_variance[5] = s_2;
+    }
+
+    if (!(((row_variance[0] >= 1.0e-20f) == true) && ((row_variance[1] >= 1.0e-20f) == true)
+          && ((row_variance[2] >= 1.0e-20f) == true) && ((row_variance[3] >= 1.0e-20f) == true)
+          && ((row_variance[4] >= 1.0e-20f) == true) && ((row_variance[5] >= 1.0e-20f) == true)))
+    {
+        status = QUADROTOR_UD_NOT_POSITIVE;
+    }
+    else
+    {
+        if (!(((out->variance[0] >= 0.0f) == true) && ((out->variance[0] <= 1.0e30f) == true)
+              && ((out->variance[1] >= 0.0f) == true) && ((out->variance[1] <= 1.0e30f) == true)
+              && ((out->variance[2] >= 0.0f) == true) && ((out->variance[2] <= 1.0e30f) == true)
+              && ((out->variance[3] >= 0.0f) == true) && ((out->variance[3] <= 1.0e30f) == true)
+              && ((out->variance[4] >= 0.0f) == true) && ((out->variance[4] <= 1.0e30f) == true)
+              && ((out->variance[5] >= 0.0f) == true) && ((out->variance[5] <= 1.0e30f) == true)))
         {
-            status = QUADROTOR_UD_NOT_POSITIVE;
+            status = QUADROTOR_UD_OVERFLOW;
         }
         else
         {
-            /* U D U' = F U D U' F' + Q, by weighted Gram-Schmidt */
+            if (!(((nis[0] >= 0.0f) == true) && ((nis[0] <= 1.0e30f) == true)))
             {
-                const float q_11_11 = params->variance_step_yaw_rate;
-                const float d_11 = before->factors[77];
-                const float d_11_2 = q_11_11 + d_11;
-                const float per_d_11 = 1.0f / ((d_11_2 >= 1.0e-30f) ? d_11_2 : 1.0f);
-                const float u_10_11 = before->factors[76];
-                const float v_22 = 0.025f + u_10_11;
-                const float u_10_11_2 = per_d_11 * (d_11 * v_22);
-                const float v_23 = -u_10_11_2;
-                const float v_24 = q_11_11 * v_23;
-                const float q_10_10 = params->variance_step_yaw;
-                const float d_10 = before->factors[75];
-                const float v_25 = v_22 - u_10_11_2;
-                const float v_26 = d_11 * v_25;
-                const float d_10_2 = (v_23 * v_24) + (q_10_10 + (d_10 + (v_25 * v_26)));
-                const float per_d_10 = 1.0f / ((d_10_2 >= 1.0e-30f) ? d_10_2 : 1.0f);
-                const float u_9_11 = before->factors[74];
-                const float u_7_11 = before->factors[67];
-                const float v_27 = f_9_11 + (u_9_11 + (f_9_7 * u_7_11));
-                const float u_9_11_2 = per_d_11 * (d_11 * v_27);
-                const float v_28 = -u_9_11_2;
-                const float u_9_10 = before->factors[73];
-                const float u_7_10 = before->factors[66];
-                const float v_29 = u_9_10 + (f_9_7 * u_7_10);
-                const float v_30 = v_27 - u_9_11_2;
-                const float u_9_10_2 = per_d_10 * ((v_28 * v_24) + ((d_10 * v_29) + (v_30 * v_26)));
-                const float v_31 = -u_9_10_2;
-                const float v_32 = q_10_10 * v_31;
-                const float v_33 = v_28 - (v_23 * u_9_10_2);
-                const float v_34 = q_11_11 * v_33;
-                const float q_9_9 = params->variance_step_pitch_rate;
-                const float v_35 = v_30 - (v_25 * u_9_10_2);
-                const float v_36 = d_11 * v_35;
-                const float v_37 = v_29 - u_9_10_2;
-                const float v_38 = d_10 * v_37;
-                const float u_7_9 = before->factors[65];
-                const float v_39 = 1.0f + (f_9_7 * u_7_9);
-                const float d_9 = before->factors[72];
-                const float v_40 = d_9 * v_39;
-                const float d_7 = before->factors[63];
-                const float v_41 = f_9_7 * d_7;
-                const float u_7_8 = before->factors[64];
-                const float v_42 = f_9_7 * u_7_8;
-                const float d_8 = before->factors[68];
-                const float v_43 = d_8 * v_42;
-                const float v_44 = q_9_9 + ((v_35 * v_36) + ((v_37 * v_38) + ((v_39 * v_40) + ((f_9_7 * v_41) + (v_42 *
-                    v_43)))));
-                const float d_9_2 = (v_31 * v_32) + ((v_33 * v_34) + v_44);
-                const float per_d_9 = 1.0f / ((d_9_2 >= 1.0e-30f) ? d_9_2 : 1.0f);
-                const float u_8_11 = before->factors[71];
-                const float v_45 = u_8_11 + (0.025f * u_9_11);
-                const float u_8_11_2 = per_d_11 * (d_11 * v_45);
-                const float v_46 = -u_8_11_2;
-                const float u_8_10 = before->factors[70];
-                const float v_47 = u_8_10 + (0.025f * u_9_10);
-                const float v_48 = v_45 - u_8_11_2;
-                const float u_8_10_2 = per_d_10 * ((v_46 * v_24) + ((d_10 * v_47) + (v_48 * v_26)));
-                const float v_49 = -u_8_10_2;
-                const float v_50 = v_46 - (v_23 * u_8_10_2);
-                const float v_51 = v_48 - (v_25 * u_8_10_2);
-                const float v_52 = v_47 - u_8_10_2;
-                const float u_8_9 = before->factors[69];
-                const float v_53 = 0.025f + u_8_9;
-                const float v_54 = (v_49 * v_32) + ((v_50 * v_34) + ((v_51 * v_36) + ((v_52 * v_38) + (v_43 + (v_53 *
-                    v_40)))));
-                const float u_8_9_2 = per_d_9 * v_54;
-                const float v_55 = -u_8_9_2;
-                const float v_56 = q_9_9 * v_55;
-                const float v_57 = -(f_9_7 * u_8_9_2);
-                const float v_58 = d_7 * v_57;
-                const float v_59 = v_49 - (v_31 * u_8_9_2);
-                const float v_60 = q_10_10 * v_59;
-                const float v_61 = v_50 - (v_33 * u_8_9_2);
-                const float v_62 = q_11_11 * v_61;
-                const float q_8_8 = params->variance_step_pitch;
-                const float v_63 = v_51 - (v_35 * u_8_9_2);
-                const float v_64 = d_11 * v_63;
-                const float v_65 = v_52 - (v_37 * u_8_9_2);
-                const float v_66 = d_10 * v_65;
-                const float v_67 = 1.0f - (v_42 * u_8_9_2);
-                const float v_68 = d_8 * v_67;
-                const float v_69 = v_53 - (v_39 * u_8_9_2);
-                const float v_70 = d_9 * v_69;
-                const float v_71 = (v_61 * v_62) + (q_8_8 + ((v_63 * v_64) + ((v_65 * v_66) + ((v_67 * v_68) + (v_69 *
-                    v_70)))));
-                const float d_8_2 = (v_55 * v_56) + ((v_57 * v_58) + ((v_59 * v_60) + v_71));
-                const float per_d_8 = 1.0f / ((d_8_2 >= 1.0e-30f) ? d_8_2 : 1.0f);
-                const float v_72 = f_7_11 + (u_7_11 + (f_7_9 * u_9_11));
-                const float u_7_11_2 = per_d_11 * (d_11 * v_72);
-                const float v_73 = -u_7_11_2;
-                const float v_74 = u_7_10 + (f_7_9 * u_9_10);
-                const float v_75 = v_72 - u_7_11_2;
-                const float u_7_10_2 = per_d_10 * ((v_73 * v_24) + ((d_10 * v_74) + (v_75 * v_26)));
-                const float v_76 = -u_7_10_2;
-                const float v_77 = v_73 - (v_23 * u_7_10_2);
-                const float v_78 = v_75 - (v_25 * u_7_10_2);
-                const float v_79 = v_74 - u_7_10_2;
-                const float v_80 = f_7_9 + u_7_9;
-                const float v_81 = (v_77 * v_34) + ((v_78 * v_36) + ((v_79 * v_38) + ((v_80 * v_40) + (v_41 + (u_7_8 *
-                    v_43)))));
-                const float u_7_9_2 = per_d_9 * ((v_76 * v_32) + v_81);
-                const float v_82 = -u_7_9_2;
-                const float v_83 = v_76 - (v_31 * u_7_9_2);
-                const float v_84 = v_77 - (v_33 * u_7_9_2);
-                const float v_85 = v_78 - (v_35 * u_7_9_2);
-                const float v_86 = v_79 - (v_37 * u_7_9_2);
-                const float v_87 = v_80 - (v_39 * u_7_9_2);
-                const float v_88 = 1.0f - (f_9_7 * u_7_9_2);
-                const float v_89 = u_7_8 - (v_42 * u_7_9_2);
-                const float v_90 = (v_84 * v_62) + ((v_85 * v_64) + ((v_86 * v_66) + ((v_87 * v_70) + ((v_88 * v_58) +
-                    (v_89 * v_68)))));
-                const float u_7_8_2 = per_d_8 * ((v_82 * v_56) + ((v_83 * v_60) + v_90));
-                const float v_91 = -u_7_8_2;
-                const float v_92 = q_8_8 * v_91;
-                const float v_93 = v_82 - (v_55 * u_7_8_2);
-                const float v_94 = q_9_9 * v_93;
-                const float v_95 = v_83 - (v_59 * u_7_8_2);
-                const float v_96 = q_10_10 * v_95;
-                const float v_97 = v_84 - (v_61 * u_7_8_2);
-                const float v_98 = q_11_11 * v_97;
-                const float q_7_7 = params->variance_step_roll_rate;
-                const float v_99 = v_85 - (v_63 * u_7_8_2);
-                const float v_100 = d_11 * v_99;
-                const float v_101 = v_86 - (v_65 * u_7_8_2);
-                const float v_102 = d_10 * v_101;
-                const float v_103 = v_87 - (v_69 * u_7_8_2);
-                const float v_104 = d_9 * v_103;
-                const float v_105 = v_88 - (v_57 * u_7_8_2);
-                const float v_106 = d_7 * v_105;
-                const float v_107 = v_89 - (v_67 * u_7_8_2);
-                const float v_108 = d_8 * v_107;
-                const float v_109 = (v_99 * v_100) + ((v_101 * v_102) + ((v_103 * v_104) + ((v_105 * v_106) + (v_107 *
-                    v_108))));
-                const float d_7_2 = (v_91 * v_92) + ((v_93 * v_94) + ((v_95 * v_96) + ((v_97 * v_98) + (q_7_7 +
-                    v_109))));
-                const float per_d_7 = 1.0f / ((d_7_2 >= 1.0e-30f) ? d_7_2 : 1.0f);
-                const float u_6_11 = before->factors[62];
-                const float v_110 = u_6_11 + (0.025f * u_7_11);
-                const float u_6_11_2 = per_d_11 * (d_11 * v_110);
-                const float v_111 = -u_6_11_2;
-                const float u_6_10 = before->factors[61];
-                const float v_112 = u_6_10 + (0.025f * u_7_10);
-                const float v_113 = v_110 - u_6_11_2;
-                const float u_6_10_2 = per_d_10 * ((v_111 * v_24) + ((d_10 * v_112) + (v_113 * v_26)));
-                const float v_114 = -u_6_10_2;
-                const float v_115 = v_111 - (v_23 * u_6_10_2);
-                const float v_116 = v_113 - (v_25 * u_6_10_2);
-                const float v_117 = v_112 - u_6_10_2;
-                const float u_6_9 = before->factors[60];
-                const float v_118 = u_6_9 + (0.025f * u_7_9);
-                const float u_6_7 = before->factors[58];
-                const float v_119 = 0.025f + u_6_7;
-                const float u_6_8 = before->factors[59];
-                const float v_120 = u_6_8 + (0.025f * u_7_8);
-                const float v_121 = (v_116 * v_36) + ((v_117 * v_38) + ((v_118 * v_40) + ((v_119 * v_41) + (v_120 *
-                    v_43))));
-                const float u_6_9_2 = per_d_9 * ((v_114 * v_32) + ((v_115 * v_34) + v_121));
-                const float v_122 = -u_6_9_2;
-                const float v_123 = v_114 - (v_31 * u_6_9_2);
-                const float v_124 = v_115 - (v_33 * u_6_9_2);
-                const float v_125 = v_116 - (v_35 * u_6_9_2);
-                const float v_126 = v_117 - (v_37 * u_6_9_2);
-                const float v_127 = v_118 - (v_39 * u_6_9_2);
-                const float v_128 = v_119 - (f_9_7 * u_6_9_2);
-                const float v_129 = v_120 - (v_42 * u_6_9_2);
-                const float v_130 = (v_125 * v_64) + ((v_126 * v_66) + ((v_127 * v_70) + ((v_128 * v_58) + (v_129 *
-                    v_68))));
-                const float u_6_8_2 = per_d_8 * ((v_122 * v_56) + ((v_123 * v_60) + ((v_124 * v_62) + v_130)));
-                const float v_131 = -u_6_8_2;
-                const float v_132 = v_122 - (v_55 * u_6_8_2);
-                const float v_133 = v_123 - (v_59 * u_6_8_2);
-                const float v_134 = v_124 - (v_61 * u_6_8_2);
-                const float v_135 = v_125 - (v_63 * u_6_8_2);
-                const float v_136 = v_126 - (v_65 * u_6_8_2);
-                const float v_137 = v_127 - (v_69 * u_6_8_2);
-                const float v_138 = v_128 - (v_57 * u_6_8_2);
-                const float v_139 = v_129 - (v_67 * u_6_8_2);
-                const float v_140 = (v_135 * v_100) + ((v_136 * v_102) + ((v_137 * v_104) + ((v_138 * v_106) + (v_139 *
-                    v_108))));
-                const float u_6_7_2 = per_d_7 * ((v_131 * v_92) + ((v_132 * v_94) + ((v_133 * v_96) + ((v_134 * v_98) +
-                    v_140))));
-                const float v_141 = -u_6_7_2;
-                const float v_142 = q_7_7 * v_141;
-                const float v_143 = v_131 - (v_91 * u_6_7_2);
-                const float v_144 = q_8_8 * v_143;
-                const float v_145 = v_132 - (v_93 * u_6_7_2);
-                const float v_146 = q_9_9 * v_145;
-                const float v_147 = v_133 - (v_95 * u_6_7_2);
-                const float v_148 = q_10_10 * v_147;
-                const float v_149 = v_134 - (v_97 * u_6_7_2);
-                const float v_150 = q_11_11 * v_149;
-                const float q_6_6 = params->variance_step_roll;
-                const float v_151 = v_135 - (v_99 * u_6_7_2);
-                const float v_152 = d_11 * v_151;
-                const float v_153 = v_136 - (v_101 * u_6_7_2);
-                const float v_154 = d_10 * v_153;
-                const float v_155 = v_137 - (v_103 * u_6_7_2);
-                const float v_156 = d_9 * v_155;
-                const float v_157 = v_139 - (v_107 * u_6_7_2);
-                const float v_158 = d_8 * v_157;
-                const float d_6 = before->factors[57];
-                const float v_159 = v_138 - (v_105 * u_6_7_2);
-                const float v_160 = d_7 * v_159;
-                const float v_161 = (v_151 * v_152) + ((v_153 * v_154) + ((v_155 * v_156) + ((v_157 * v_158) + (d_6 +
-                    (v_159 * v_160)))));
-                const float v_162 = (v_143 * v_144) + ((v_145 * v_146) + ((v_147 * v_148) + ((v_149 * v_150) + (q_6_6 +
-                    v_161))));
-                const float d_6_2 = (v_141 * v_142) + v_162;
-                const float per_d_6 = 1.0f / ((d_6_2 >= 1.0e-30f) ? d_6_2 : 1.0f);
-                const float u_5_11 = before->factors[56];
-                const float v_163 = (u_5_11 + (f_5_6 * u_6_11)) + (f_5_8 * u_8_11);
-                const float u_5_11_2 = per_d_11 * (d_11 * v_163);
-                const float v_164 = -u_5_11_2;
-                const float u_5_10 = before->factors[55];
-                const float v_165 = (u_5_10 + (f_5_6 * u_6_10)) + (f_5_8 * u_8_10);
-                const float v_166 = v_163 - u_5_11_2;
-                const float u_5_10_2 = per_d_10 * ((v_164 * v_24) + ((d_10 * v_165) + (v_166 * v_26)));
-                const float v_167 = -u_5_10_2;
-                const float v_168 = v_164 - (v_23 * u_5_10_2);
-                const float v_169 = v_166 - (v_25 * u_5_10_2);
-                const float v_170 = v_165 - u_5_10_2;
-                const float u_5_9 = before->factors[54];
-                const float v_171 = (u_5_9 + (f_5_6 * u_6_9)) + (f_5_8 * u_8_9);
-                const float u_5_7 = before->factors[52];
-                const float v_172 = u_5_7 + (f_5_6 * u_6_7);
-                const float u_5_8 = before->factors[53];
-                const float v_173 = f_5_8 + (u_5_8 + (f_5_6 * u_6_8));
-                const float v_174 = (v_169 * v_36) + ((v_170 * v_38) + ((v_171 * v_40) + ((v_172 * v_41) + (v_173 *
-                    v_43))));
-                const float u_5_9_2 = per_d_9 * ((v_167 * v_32) + ((v_168 * v_34) + v_174));
-                const float v_175 = -u_5_9_2;
-                const float v_176 = v_167 - (v_31 * u_5_9_2);
-                const float v_177 = v_168 - (v_33 * u_5_9_2);
-                const float v_178 = v_169 - (v_35 * u_5_9_2);
-                const float v_179 = v_170 - (v_37 * u_5_9_2);
-                const float v_180 = v_171 - (v_39 * u_5_9_2);
-                const float v_181 = v_172 - (f_9_7 * u_5_9_2);
-                const float v_182 = v_173 - (v_42 * u_5_9_2);
-                const float v_183 = (v_178 * v_64) + ((v_179 * v_66) + ((v_180 * v_70) + ((v_181 * v_58) + (v_182 *
-                    v_68))));
-                const float u_5_8_2 = per_d_8 * ((v_175 * v_56) + ((v_176 * v_60) + ((v_177 * v_62) + v_183)));
-                const float v_184 = -u_5_8_2;
-                const float v_185 = v_175 - (v_55 * u_5_8_2);
-                const float v_186 = v_176 - (v_59 * u_5_8_2);
-                const float v_187 = v_177 - (v_61 * u_5_8_2);
-                const float v_188 = v_178 - (v_63 * u_5_8_2);
-                const float v_189 = v_179 - (v_65 * u_5_8_2);
-                const float v_190 = v_180 - (v_69 * u_5_8_2);
-                const float v_191 = v_181 - (v_57 * u_5_8_2);
-                const float v_192 = v_182 - (v_67 * u_5_8_2);
-                const float v_193 = (v_188 * v_100) + ((v_189 * v_102) + ((v_190 * v_104) + ((v_191 * v_106) + (v_192 *
-                    v_108))));
-                const float u_5_7_2 = per_d_7 * ((v_184 * v_92) + ((v_185 * v_94) + ((v_186 * v_96) + ((v_187 * v_98) +
-                    v_193))));
-                const float v_194 = -u_5_7_2;
-                const float v_195 = v_184 - (v_91 * u_5_7_2);
-                const float v_196 = v_185 - (v_93 * u_5_7_2);
-                const float v_197 = v_186 - (v_95 * u_5_7_2);
-                const float v_198 = v_187 - (v_97 * u_5_7_2);
-                const float v_199 = v_188 - (v_99 * u_5_7_2);
-                const float v_200 = v_189 - (v_101 * u_5_7_2);
-                const float v_201 = v_190 - (v_103 * u_5_7_2);
-                const float v_202 = v_192 - (v_107 * u_5_7_2);
-                const float u_5_6 = before->factors[51];
-                const float v_203 = f_5_6 + u_5_6;
-                const float v_204 = v_191 - (v_105 * u_5_7_2);
-                const float v_205 = (v_200 * v_154) + ((v_201 * v_156) + ((v_202 * v_158) + ((d_6 * v_203) + (v_204 *
-                    v_160))));
-                const float v_206 = (v_195 * v_144) + ((v_196 * v_146) + ((v_197 * v_148) + ((v_198 * v_150) + ((v_199 *
-                    v_152) + v_205))));
-                const float u_5_6_2 = per_d_6 * ((v_194 * v_142) + v_206);
-                const float v_207 = -u_5_6_2;
-                const float v_208 = q_6_6 * v_207;
-                const float v_209 = v_194 - (v_141 * u_5_6_2);
-                const float v_210 = q_7_7 * v_209;
-                const float v_211 = v_195 - (v_143 * u_5_6_2);
-                const float v_212 = q_8_8 * v_211;
-                const float v_213 = v_196 - (v_145 * u_5_6_2);
-                const float v_214 = q_9_9 * v_213;
-                const float v_215 = v_197 - (v_147 * u_5_6_2);
-                const float v_216 = q_10_10 * v_215;
-                const float v_217 = v_198 - (v_149 * u_5_6_2);
-                const float v_218 = q_11_11 * v_217;
-                const float q_5_5 = params->variance_step_vz;
-                const float v_219 = v_199 - (v_151 * u_5_6_2);
-                const float v_220 = d_11 * v_219;
-                const float v_221 = v_200 - (v_153 * u_5_6_2);
-                const float v_222 = d_10 * v_221;
-                const float v_223 = v_201 - (v_155 * u_5_6_2);
-                const float v_224 = d_9 * v_223;
-                const float v_225 = v_202 - (v_157 * u_5_6_2);
-                const float v_226 = d_8 * v_225;
-                const float v_227 = v_204 - (v_159 * u_5_6_2);
-                const float v_228 = d_7 * v_227;
-                const float d_5 = before->factors[50];
-                const float v_229 = v_203 - u_5_6_2;
-                const float v_230 = d_6 * v_229;
-                const float v_231 = (v_221 * v_222) + ((v_223 * v_224) + ((v_225 * v_226) + ((v_227 * v_228) + (d_5 +
-                    (v_229 * v_230)))));
-                const float v_232 = (v_213 * v_214) + ((v_215 * v_216) + ((v_217 * v_218) + (q_5_5 + ((v_219 * v_220) +
-                    v_231))));
-                const float d_5_2 = (v_207 * v_208) + ((v_209 * v_210) + ((v_211 * v_212) + v_232));
-                const float per_d_5 = 1.0f / ((d_5_2 >= 1.0e-30f) ? d_5_2 : 1.0f);
-                const float v_233 = before->factors[49] + (0.025f * u_5_11);
-                const float u_4_11 = per_d_11 * (d_11 * v_233);
-                const float v_234 = -u_4_11;
-                const float v_235 = before->factors[48] + (0.025f * u_5_10);
-                const float v_236 = v_233 - u_4_11;
-                const float u_4_10 = per_d_10 * ((v_234 * v_24) + ((d_10 * v_235) + (v_236 * v_26)));
-                const float v_237 = -u_4_10;
-                const float v_238 = v_234 - (v_23 * u_4_10);
-                const float v_239 = v_236 - (v_25 * u_4_10);
-                const float v_240 = v_235 - u_4_10;
-                const float v_241 = before->factors[47] + (0.025f * u_5_9);
-                const float v_242 = before->factors[45] + (0.025f * u_5_7);
-                const float v_243 = before->factors[46] + (0.025f * u_5_8);
-                const float v_244 = (v_239 * v_36) + ((v_240 * v_38) + ((v_241 * v_40) + ((v_242 * v_41) + (v_243 *
-                    v_43))));
-                const float u_4_9 = per_d_9 * ((v_237 * v_32) + ((v_238 * v_34) + v_244));
-                const float v_245 = -u_4_9;
-                const float v_246 = v_237 - (v_31 * u_4_9);
-                const float v_247 = v_238 - (v_33 * u_4_9);
-                const float v_248 = v_239 - (v_35 * u_4_9);
-                const float v_249 = v_240 - (v_37 * u_4_9);
-                const float v_250 = v_241 - (v_39 * u_4_9);
-                const float v_251 = v_242 - (f_9_7 * u_4_9);
-                const float v_252 = v_243 - (v_42 * u_4_9);
-                const float v_253 = (v_248 * v_64) + ((v_249 * v_66) + ((v_250 * v_70) + ((v_251 * v_58) + (v_252 *
-                    v_68))));
-                const float u_4_8 = per_d_8 * ((v_245 * v_56) + ((v_246 * v_60) + ((v_247 * v_62) + v_253)));
-                const float v_254 = -u_4_8;
-                const float v_255 = v_245 - (v_55 * u_4_8);
-                const float v_256 = v_246 - (v_59 * u_4_8);
-                const float v_257 = v_247 - (v_61 * u_4_8);
-                const float v_258 = v_248 - (v_63 * u_4_8);
-                const float v_259 = v_249 - (v_65 * u_4_8);
-                const float v_260 = v_250 - (v_69 * u_4_8);
-                const float v_261 = v_251 - (v_57 * u_4_8);
-                const float v_262 = v_252 - (v_67 * u_4_8);
-                const float v_263 = (v_258 * v_100) + ((v_259 * v_102) + ((v_260 * v_104) + ((v_261 * v_106) + (v_262 *
-                    v_108))));
-                const float u_4_7 = per_d_7 * ((v_254 * v_92) + ((v_255 * v_94) + ((v_256 * v_96) + ((v_257 * v_98) +
-                    v_263))));
-                const float v_264 = -u_4_7;
-                const float v_265 = v_254 - (v_91 * u_4_7);
-                const float v_266 = v_255 - (v_93 * u_4_7);
-                const float v_267 = v_256 - (v_95 * u_4_7);
-                const float v_268 = v_257 - (v_97 * u_4_7);
-                const float v_269 = v_258 - (v_99 * u_4_7);
-                const float v_270 = v_259 - (v_101 * u_4_7);
-                const float v_271 = v_260 - (v_103 * u_4_7);
-                const float v_272 = v_262 - (v_107 * u_4_7);
-                const float v_273 = before->factors[44] + (0.025f * u_5_6);
-                const float v_274 = v_261 - (v_105 * u_4_7);
-                const float v_275 = (v_270 * v_154) + ((v_271 * v_156) + ((v_272 * v_158) + ((d_6 * v_273) + (v_274 *
-                    v_160))));
-                const float v_276 = (v_265 * v_144) + ((v_266 * v_146) + ((v_267 * v_148) + ((v_268 * v_150) + ((v_269 *
-                    v_152) + v_275))));
-                const float u_4_6 = per_d_6 * ((v_264 * v_142) + v_276);
-                const float v_277 = -u_4_6;
-                const float v_278 = v_264 - (v_141 * u_4_6);
-                const float v_279 = v_265 - (v_143 * u_4_6);
-                const float v_280 = v_266 - (v_145 * u_4_6);
-                const float v_281 = v_267 - (v_147 * u_4_6);
-                const float v_282 = v_268 - (v_149 * u_4_6);
-                const float v_283 = v_269 - (v_151 * u_4_6);
-                const float v_284 = v_270 - (v_153 * u_4_6);
-                const float v_285 = v_271 - (v_155 * u_4_6);
-                const float v_286 = v_272 - (v_157 * u_4_6);
-                const float v_287 = v_274 - (v_159 * u_4_6);
-                const float v_288 = 0.025f + before->factors[43];
-                const float v_289 = v_273 - u_4_6;
-                const float v_290 = (v_285 * v_224) + ((v_286 * v_226) + ((v_287 * v_228) + ((d_5 * v_288) + (v_289 *
-                    v_230))));
-                const float v_291 = (v_280 * v_214) + ((v_281 * v_216) + ((v_282 * v_218) + ((v_283 * v_220) + ((v_284 *
-                    v_222) + v_290))));
-                const float u_4_5 = per_d_5 * ((v_277 * v_208) + ((v_278 * v_210) + ((v_279 * v_212) + v_291)));
-                const float v_292 = -u_4_5;
-                const float v_293 = q_5_5 * v_292;
-                const float v_294 = v_277 - (v_207 * u_4_5);
-                const float v_295 = q_6_6 * v_294;
-                const float v_296 = v_278 - (v_209 * u_4_5);
-                const float v_297 = q_7_7 * v_296;
-                const float v_298 = v_279 - (v_211 * u_4_5);
-                const float v_299 = q_8_8 * v_298;
-                const float v_300 = v_280 - (v_213 * u_4_5);
-                const float v_301 = q_9_9 * v_300;
-                const float v_302 = v_281 - (v_215 * u_4_5);
-                const float v_303 = q_10_10 * v_302;
-                const float v_304 = v_282 - (v_217 * u_4_5);
-                const float v_305 = q_11_11 * v_304;
-                const float q_4_4 = params->variance_step_z;
-                const float v_306 = v_283 - (v_219 * u_4_5);
-                const float v_307 = d_11 * v_306;
-                const float v_308 = v_284 - (v_221 * u_4_5);
-                const float v_309 = d_10 * v_308;
-                const float v_310 = v_285 - (v_223 * u_4_5);
-                const float v_311 = d_9 * v_310;
-                const float v_312 = v_286 - (v_225 * u_4_5);
-                const float v_313 = d_8 * v_312;
-                const float v_314 = v_287 - (v_227 * u_4_5);
-                const float v_315 = d_7 * v_314;
-                const float v_316 = v_289 - (v_229 * u_4_5);
-                const float v_317 = d_6 * v_316;
-                const float d_4 = before->factors[42];
-                const float v_318 = v_288 - u_4_5;
-                const float v_319 = d_5 * v_318;
-                const float v_320 = (v_310 * v_311) + ((v_312 * v_313) + ((v_314 * v_315) + ((v_316 * v_317) + (d_4 +
-                    (v_318 * v_319)))));
-                const float v_321 = (v_302 * v_303) + ((v_304 * v_305) + (q_4_4 + ((v_306 * v_307) + ((v_308 * v_309) +
-                    v_320))));
-                const float d_4_2 = (v_292 * v_293) + ((v_294 * v_295) + ((v_296 * v_297) + ((v_298 * v_299) + ((v_300 *
-                    v_301) + v_321))));
-                const float per_d_4 = 1.0f / ((d_4_2 >= 1.0e-30f) ? d_4_2 : 1.0f);
-                const float u_3_11 = before->factors[41];
-                const float v_322 = ((u_3_11 + (f_3_6 * u_6_11)) + (f_3_8 * u_8_11)) + (f_3_10 * u_10_11);
-                const float u_3_11_2 = per_d_11 * (d_11 * v_322);
-                const float v_323 = -u_3_11_2;
-                const float u_3_10 = before->factors[40];
-                const float v_324 = f_3_10 + ((u_3_10 + (f_3_6 * u_6_10)) + (f_3_8 * u_8_10));
-                const float v_325 = v_322 - u_3_11_2;
-                const float u_3_10_2 = per_d_10 * ((v_323 * v_24) + ((d_10 * v_324) + (v_325 * v_26)));
-                const float v_326 = -u_3_10_2;
-                const float v_327 = v_323 - (v_23 * u_3_10_2);
-                const float v_328 = v_325 - (v_25 * u_3_10_2);
-                const float v_329 = v_324 - u_3_10_2;
-                const float u_3_9 = before->factors[39];
-                const float v_330 = (u_3_9 + (f_3_6 * u_6_9)) + (f_3_8 * u_8_9);
-                const float u_3_7 = before->factors[37];
-                const float v_331 = u_3_7 + (f_3_6 * u_6_7);
-                const float u_3_8 = before->factors[38];
-                const float v_332 = f_3_8 + (u_3_8 + (f_3_6 * u_6_8));
-                const float v_333 = (v_328 * v_36) + ((v_329 * v_38) + ((v_330 * v_40) + ((v_331 * v_41) + (v_332 *
-                    v_43))));
-                const float u_3_9_2 = per_d_9 * ((v_326 * v_32) + ((v_327 * v_34) + v_333));
-                const float v_334 = -u_3_9_2;
-                const float v_335 = v_326 - (v_31 * u_3_9_2);
-                const float v_336 = v_327 - (v_33 * u_3_9_2);
-                const float v_337 = v_328 - (v_35 * u_3_9_2);
-                const float v_338 = v_329 - (v_37 * u_3_9_2);
-                const float v_339 = v_330 - (v_39 * u_3_9_2);
-                const float v_340 = v_331 - (f_9_7 * u_3_9_2);
-                const float v_341 = v_332 - (v_42 * u_3_9_2);
-                const float v_342 = (v_337 * v_64) + ((v_338 * v_66) + ((v_339 * v_70) + ((v_340 * v_58) + (v_341 *
-                    v_68))));
-                const float u_3_8_2 = per_d_8 * ((v_334 * v_56) + ((v_335 * v_60) + ((v_336 * v_62) + v_342)));
-                const float v_343 = -u_3_8_2;
-                const float v_344 = v_334 - (v_55 * u_3_8_2);
-                const float v_345 = v_335 - (v_59 * u_3_8_2);
-                const float v_346 = v_336 - (v_61 * u_3_8_2);
-                const float v_347 = v_337 - (v_63 * u_3_8_2);
-                const float v_348 = v_338 - (v_65 * u_3_8_2);
-                const float v_349 = v_339 - (v_69 * u_3_8_2);
-                const float v_350 = v_340 - (v_57 * u_3_8_2);
-                const float v_351 = v_341 - (v_67 * u_3_8_2);
-                const float v_352 = (v_347 * v_100) + ((v_348 * v_102) + ((v_349 * v_104) + ((v_350 * v_106) + (v_351 *
-                    v_108))));
-                const float u_3_7_2 = per_d_7 * ((v_343 * v_92) + ((v_344 * v_94) + ((v_345 * v_96) + ((v_346 * v_98) +
-                    v_352))));
-                const float v_353 = -u_3_7_2;
-                const float v_354 = v_343 - (v_91 * u_3_7_2);
-                const float v_355 = v_344 - (v_93 * u_3_7_2);
-                const float v_356 = v_345 - (v_95 * u_3_7_2);
-                const float v_357 = v_346 - (v_97 * u_3_7_2);
-                const float v_358 = v_347 - (v_99 * u_3_7_2);
-                const float v_359 = v_348 - (v_101 * u_3_7_2);
-                const float v_360 = v_349 - (v_103 * u_3_7_2);
-                const float v_361 = v_351 - (v_107 * u_3_7_2);
-                const float u_3_6 = before->factors[36];
-                const float v_362 = f_3_6 + u_3_6;
-                const float v_363 = v_350 - (v_105 * u_3_7_2);
-                const float v_364 = (v_359 * v_154) + ((v_360 * v_156) + ((v_361 * v_158) + ((d_6 * v_362) + (v_363 *
-                    v_160))));
-                const float v_365 = (v_354 * v_144) + ((v_355 * v_146) + ((v_356 * v_148) + ((v_357 * v_150) + ((v_358 *
-                    v_152) + v_364))));
-                const float u_3_6_2 = per_d_6 * ((v_353 * v_142) + v_365);
-                const float v_366 = -u_3_6_2;
-                const float v_367 = v_353 - (v_141 * u_3_6_2);
-                const float v_368 = v_354 - (v_143 * u_3_6_2);
-                const float v_369 = v_355 - (v_145 * u_3_6_2);
-                const float v_370 = v_356 - (v_147 * u_3_6_2);
-                const float v_371 = v_357 - (v_149 * u_3_6_2);
-                const float v_372 = v_358 - (v_151 * u_3_6_2);
-                const float v_373 = v_359 - (v_153 * u_3_6_2);
-                const float v_374 = v_360 - (v_155 * u_3_6_2);
-                const float v_375 = v_361 - (v_157 * u_3_6_2);
-                const float v_376 = v_363 - (v_159 * u_3_6_2);
-                const float u_3_5 = before->factors[35];
-                const float v_377 = v_362 - u_3_6_2;
-                const float v_378 = (v_374 * v_224) + ((v_375 * v_226) + ((v_376 * v_228) + ((u_3_5 * d_5) + (v_377 *
-                    v_230))));
-                const float v_379 = (v_369 * v_214) + ((v_370 * v_216) + ((v_371 * v_218) + ((v_372 * v_220) + ((v_373 *
-                    v_222) + v_378))));
-                const float u_3_5_2 = per_d_5 * ((v_366 * v_208) + ((v_367 * v_210) + ((v_368 * v_212) + v_379)));
-                const float v_380 = -u_3_5_2;
-                const float v_381 = v_366 - (v_207 * u_3_5_2);
-                const float v_382 = v_367 - (v_209 * u_3_5_2);
-                const float v_383 = v_368 - (v_211 * u_3_5_2);
-                const float v_384 = v_369 - (v_213 * u_3_5_2);
-                const float v_385 = v_370 - (v_215 * u_3_5_2);
-                const float v_386 = v_371 - (v_217 * u_3_5_2);
-                const float v_387 = v_372 - (v_219 * u_3_5_2);
-                const float v_388 = v_373 - (v_221 * u_3_5_2);
-                const float v_389 = v_374 - (v_223 * u_3_5_2);
-                const float v_390 = v_375 - (v_225 * u_3_5_2);
-                const float v_391 = v_376 - (v_227 * u_3_5_2);
-                const float v_392 = v_377 - (v_229 * u_3_5_2);
-                const float u_3_4 = before->factors[34];
-                const float v_393 = u_3_5 - u_3_5_2;
-                const float v_394 = (v_390 * v_313) + ((v_391 * v_315) + ((v_392 * v_317) + ((u_3_4 * d_4) + (v_393 *
-                    v_319))));
-                const float v_395 = (v_385 * v_303) + ((v_386 * v_305) + ((v_387 * v_307) + ((v_388 * v_309) + ((v_389 *
-                    v_311) + v_394))));
-                const float v_396 = (v_380 * v_293) + ((v_381 * v_295) + ((v_382 * v_297) + ((v_383 * v_299) + ((v_384 *
-                    v_301) + v_395))));
-                const float u_3_4_2 = per_d_4 * v_396;
-                const float v_397 = -u_3_4_2;
-                const float v_398 = q_4_4 * v_397;
-                const float v_399 = v_380 - (v_292 * u_3_4_2);
-                const float v_400 = q_5_5 * v_399;
-                const float v_401 = v_381 - (v_294 * u_3_4_2);
-                const float v_402 = q_6_6 * v_401;
-                const float v_403 = v_382 - (v_296 * u_3_4_2);
-                const float v_404 = q_7_7 * v_403;
-                const float v_405 = v_383 - (v_298 * u_3_4_2);
-                const float v_406 = q_8_8 * v_405;
-                const float v_407 = v_384 - (v_300 * u_3_4_2);
-                const float v_408 = q_9_9 * v_407;
-                const float v_409 = v_385 - (v_302 * u_3_4_2);
-                const float v_410 = q_10_10 * v_409;
-                const float v_411 = v_386 - (v_304 * u_3_4_2);
-                const float v_412 = q_11_11 * v_411;
-                const float q_3_3 = params->variance_step_vy;
-                const float v_413 = v_387 - (v_306 * u_3_4_2);
-                const float v_414 = d_11 * v_413;
-                const float v_415 = v_388 - (v_308 * u_3_4_2);
-                const float v_416 = d_10 * v_415;
-                const float v_417 = v_389 - (v_310 * u_3_4_2);
-                const float v_418 = d_9 * v_417;
-                const float v_419 = v_390 - (v_312 * u_3_4_2);
-                const float v_420 = d_8 * v_419;
-                const float v_421 = v_391 - (v_314 * u_3_4_2);
-                const float v_422 = d_7 * v_421;
-                const float v_423 = v_392 - (v_316 * u_3_4_2);
-                const float v_424 = d_6 * v_423;
-                const float v_425 = v_393 - (v_318 * u_3_4_2);
-                const float v_426 = d_5 * v_425;
-                const float d_3 = before->factors[33];
-                const float v_427 = u_3_4 - u_3_4_2;
-                const float v_428 = d_4 * v_427;
-                const float v_429 = (v_419 * v_420) + ((v_421 * v_422) + ((v_423 * v_424) + ((v_425 * v_426) + (d_3 +
-                    (v_427 * v_428)))));
-                const float v_430 = (v_411 * v_412) + (q_3_3 + ((v_413 * v_414) + ((v_415 * v_416) + ((v_417 * v_418) +
-                    v_429))));
-                const float v_431 = (v_401 * v_402) + ((v_403 * v_404) + ((v_405 * v_406) + ((v_407 * v_408) + ((v_409 *
-                    v_410) + v_430))));
-                const float d_3_2 = (v_397 * v_398) + ((v_399 * v_400) + v_431);
-                const float per_d_3 = 1.0f / ((d_3_2 >= 1.0e-30f) ? d_3_2 : 1.0f);
-                const float v_432 = before->factors[32] + (0.025f * u_3_11);
-                const float u_2_11 = per_d_11 * (d_11 * v_432);
-                const float v_433 = -u_2_11;
-                const float v_434 = before->factors[31] + (0.025f * u_3_10);
-                const float v_435 = v_432 - u_2_11;
-                const float u_2_10 = per_d_10 * ((v_433 * v_24) + ((d_10 * v_434) + (v_435 * v_26)));
-                const float v_436 = -u_2_10;
-                const float v_437 = v_433 - (v_23 * u_2_10);
-                const float v_438 = v_435 - (v_25 * u_2_10);
-                const float v_439 = v_434 - u_2_10;
-                const float v_440 = before->factors[30] + (0.025f * u_3_9);
-                const float v_441 = before->factors[28] + (0.025f * u_3_7);
-                const float v_442 = before->factors[29] + (0.025f * u_3_8);
-                const float v_443 = (v_438 * v_36) + ((v_439 * v_38) + ((v_440 * v_40) + ((v_441 * v_41) + (v_442 *
-                    v_43))));
-                const float u_2_9 = per_d_9 * ((v_436 * v_32) + ((v_437 * v_34) + v_443));
-                const float v_444 = -u_2_9;
-                const float v_445 = v_436 - (v_31 * u_2_9);
-                const float v_446 = v_437 - (v_33 * u_2_9);
-                const float v_447 = v_438 - (v_35 * u_2_9);
-                const float v_448 = v_439 - (v_37 * u_2_9);
-                const float v_449 = v_440 - (v_39 * u_2_9);
-                const float v_450 = v_441 - (f_9_7 * u_2_9);
-                const float v_451 = v_442 - (v_42 * u_2_9);
-                const float v_452 = (v_447 * v_64) + ((v_448 * v_66) + ((v_449 * v_70) + ((v_450 * v_58) + (v_451 *
-                    v_68))));
-                const float u_2_8 = per_d_8 * ((v_444 * v_56) + ((v_445 * v_60) + ((v_446 * v_62) + v_452)));
-                const float v_453 = -u_2_8;
-                const float v_454 = v_444 - (v_55 * u_2_8);
-                const float v_455 = v_445 - (v_59 * u_2_8);
-                const float v_456 = v_446 - (v_61 * u_2_8);
-                const float v_457 = v_447 - (v_63 * u_2_8);
-                const float v_458 = v_448 - (v_65 * u_2_8);
-                const float v_459 = v_449 - (v_69 * u_2_8);
-                const float v_460 = v_450 - (v_57 * u_2_8);
-                const float v_461 = v_451 - (v_67 * u_2_8);
-                const float v_462 = (v_457 * v_100) + ((v_458 * v_102) + ((v_459 * v_104) + ((v_460 * v_106) + (v_461 *
-                    v_108))));
-                const float u_2_7 = per_d_7 * ((v_453 * v_92) + ((v_454 * v_94) + ((v_455 * v_96) + ((v_456 * v_98) +
-                    v_462))));
-                const float v_463 = -u_2_7;
-                const float v_464 = v_453 - (v_91 * u_2_7);
-                const float v_465 = v_454 - (v_93 * u_2_7);
-                const float v_466 = v_455 - (v_95 * u_2_7);
-                const float v_467 = v_456 - (v_97 * u_2_7);
-                const float v_468 = v_457 - (v_99 * u_2_7);
-                const float v_469 = v_458 - (v_101 * u_2_7);
-                const float v_470 = v_459 - (v_103 * u_2_7);
-                const float v_471 = v_461 - (v_107 * u_2_7);
-                const float v_472 = before->factors[27] + (0.025f * u_3_6);
-                const float v_473 = v_460 - (v_105 * u_2_7);
-                const float v_474 = (v_469 * v_154) + ((v_470 * v_156) + ((v_471 * v_158) + ((d_6 * v_472) + (v_473 *
-                    v_160))));
-                const float v_475 = (v_464 * v_144) + ((v_465 * v_146) + ((v_466 * v_148) + ((v_467 * v_150) + ((v_468 *
-                    v_152) + v_474))));
-                const float u_2_6 = per_d_6 * ((v_463 * v_142) + v_475);
-                const float v_476 = -u_2_6;
-                const float v_477 = v_463 - (v_141 * u_2_6);
-                const float v_478 = v_464 - (v_143 * u_2_6);
-                const float v_479 = v_465 - (v_145 * u_2_6);
-                const float v_480 = v_466 - (v_147 * u_2_6);
-                const float v_481 = v_467 - (v_149 * u_2_6);
-                const float v_482 = v_468 - (v_151 * u_2_6);
-                const float v_483 = v_469 - (v_153 * u_2_6);
-                const float v_484 = v_470 - (v_155 * u_2_6);
-                const float v_485 = v_471 - (v_157 * u_2_6);
-                const float v_486 = v_473 - (v_159 * u_2_6);
-                const float v_487 = before->factors[26] + (0.025f * u_3_5);
-                const float v_488 = v_472 - u_2_6;
-                const float v_489 = (v_484 * v_224) + ((v_485 * v_226) + ((v_486 * v_228) + ((d_5 * v_487) + (v_488 *
-                    v_230))));
-                const float v_490 = (v_479 * v_214) + ((v_480 * v_216) + ((v_481 * v_218) + ((v_482 * v_220) + ((v_483 *
-                    v_222) + v_489))));
-                const float u_2_5 = per_d_5 * ((v_476 * v_208) + ((v_477 * v_210) + ((v_478 * v_212) + v_490)));
-                const float v_491 = -u_2_5;
-                const float v_492 = v_476 - (v_207 * u_2_5);
-                const float v_493 = v_477 - (v_209 * u_2_5);
-                const float v_494 = v_478 - (v_211 * u_2_5);
-                const float v_495 = v_479 - (v_213 * u_2_5);
-                const float v_496 = v_480 - (v_215 * u_2_5);
-                const float v_497 = v_481 - (v_217 * u_2_5);
-                const float v_498 = v_482 - (v_219 * u_2_5);
-                const float v_499 = v_483 - (v_221 * u_2_5);
-                const float v_500 = v_484 - (v_223 * u_2_5);
-                const float v_501 = v_485 - (v_225 * u_2_5);
-                const float v_502 = v_486 - (v_227 * u_2_5);
-                const float v_503 = v_488 - (v_229 * u_2_5);
-                const float v_504 = before->factors[25] + (0.025f * u_3_4);
-                const float v_505 = v_487 - u_2_5;
-                const float v_506 = (v_501 * v_313) + ((v_502 * v_315) + ((v_503 * v_317) + ((d_4 * v_504) + (v_505 *
-                    v_319))));
-                const float v_507 = (v_496 * v_303) + ((v_497 * v_305) + ((v_498 * v_307) + ((v_499 * v_309) + ((v_500 *
-                    v_311) + v_506))));
-                const float v_508 = (v_491 * v_293) + ((v_492 * v_295) + ((v_493 * v_297) + ((v_494 * v_299) + ((v_495 *
-                    v_301) + v_507))));
-                const float u_2_4 = per_d_4 * v_508;
-                const float v_509 = -u_2_4;
-                const float v_510 = v_491 - (v_292 * u_2_4);
-                const float v_511 = v_492 - (v_294 * u_2_4);
-                const float v_512 = v_493 - (v_296 * u_2_4);
-                const float v_513 = v_494 - (v_298 * u_2_4);
-                const float v_514 = v_495 - (v_300 * u_2_4);
-                const float v_515 = v_496 - (v_302 * u_2_4);
-                const float v_516 = v_497 - (v_304 * u_2_4);
-                const float v_517 = v_498 - (v_306 * u_2_4);
-                const float v_518 = v_499 - (v_308 * u_2_4);
-                const float v_519 = v_500 - (v_310 * u_2_4);
-                const float v_520 = v_501 - (v_312 * u_2_4);
-                const float v_521 = v_502 - (v_314 * u_2_4);
-                const float v_522 = v_503 - (v_316 * u_2_4);
-                const float v_523 = v_505 - (v_318 * u_2_4);
-                const float v_524 = 0.025f + before->factors[24];
-                const float v_525 = v_504 - u_2_4;
-                const float v_526 = (v_521 * v_422) + ((v_522 * v_424) + ((v_523 * v_426) + ((d_3 * v_524) + (v_525 *
-                    v_428))));
-                const float v_527 = (v_516 * v_412) + ((v_517 * v_414) + ((v_518 * v_416) + ((v_519 * v_418) + ((v_520 *
-                    v_420) + v_526))));
-                const float v_528 = (v_511 * v_402) + ((v_512 * v_404) + ((v_513 * v_406) + ((v_514 * v_408) + ((v_515 *
-                    v_410) + v_527))));
-                const float u_2_3 = per_d_3 * ((v_509 * v_398) + ((v_510 * v_400) + v_528));
-                const float v_529 = -u_2_3;
-                const float v_530 = q_3_3 * v_529;
-                const float v_531 = v_509 - (v_397 * u_2_3);
-                const float v_532 = q_4_4 * v_531;
-                const float v_533 = v_510 - (v_399 * u_2_3);
-                const float v_534 = q_5_5 * v_533;
-                const float v_535 = v_511 - (v_401 * u_2_3);
-                const float v_536 = q_6_6 * v_535;
-                const float v_537 = v_512 - (v_403 * u_2_3);
-                const float v_538 = q_7_7 * v_537;
-                const float v_539 = v_513 - (v_405 * u_2_3);
-                const float v_540 = q_8_8 * v_539;
-                const float v_541 = v_514 - (v_407 * u_2_3);
-                const float v_542 = q_9_9 * v_541;
-                const float v_543 = v_515 - (v_409 * u_2_3);
-                const float v_544 = q_10_10 * v_543;
-                const float v_545 = v_516 - (v_411 * u_2_3);
-                const float v_546 = q_11_11 * v_545;
-                const float q_2_2 = params->variance_step_y;
-                const float v_547 = v_517 - (v_413 * u_2_3);
-                const float v_548 = d_11 * v_547;
-                const float v_549 = v_518 - (v_415 * u_2_3);
-                const float v_550 = d_10 * v_549;
-                const float v_551 = v_519 - (v_417 * u_2_3);
-                const float v_552 = d_9 * v_551;
-                const float v_553 = v_520 - (v_419 * u_2_3);
-                const float v_554 = d_8 * v_553;
-                const float v_555 = v_521 - (v_421 * u_2_3);
-                const float v_556 = d_7 * v_555;
-                const float v_557 = v_522 - (v_423 * u_2_3);
-                const float v_558 = d_6 * v_557;
-                const float v_559 = v_523 - (v_425 * u_2_3);
-                const float v_560 = d_5 * v_559;
-                const float v_561 = v_525 - (v_427 * u_2_3);
-                const float v_562 = d_4 * v_561;
-                const float d_2 = before->factors[23];
-                const float v_563 = v_524 - u_2_3;
-                const float v_564 = d_3 * v_563;
-                const float v_565 = (v_555 * v_556) + ((v_557 * v_558) + ((v_559 * v_560) + ((v_561 * v_562) + (d_2 +
-                    (v_563 * v_564)))));
-                const float v_566 = q_2_2 + ((v_547 * v_548) + ((v_549 * v_550) + ((v_551 * v_552) + ((v_553 * v_554) +
-                    v_565))));
-                const float v_567 = (v_537 * v_538) + ((v_539 * v_540) + ((v_541 * v_542) + ((v_543 * v_544) + ((v_545 *
-                    v_546) + v_566))));
-                const float d_2_2 = (v_529 * v_530) + ((v_531 * v_532) + ((v_533 * v_534) + ((v_535 * v_536) + v_567)));
-                const float per_d_2 = 1.0f / ((d_2_2 >= 1.0e-30f) ? d_2_2 : 1.0f);
-                const float u_1_11 = before->factors[22];
-                const float v_568 = ((u_1_11 + (f_1_6 * u_6_11)) + (f_1_8 * u_8_11)) + (f_1_10 * u_10_11);
-                const float u_1_11_2 = per_d_11 * (d_11 * v_568);
-                const float v_569 = -u_1_11_2;
-                const float u_1_10 = before->factors[21];
-                const float v_570 = f_1_10 + ((u_1_10 + (f_1_6 * u_6_10)) + (f_1_8 * u_8_10));
-                const float v_571 = v_568 - u_1_11_2;
-                const float u_1_10_2 = per_d_10 * ((v_569 * v_24) + ((d_10 * v_570) + (v_571 * v_26)));
-                const float v_572 = -u_1_10_2;
-                const float v_573 = v_569 - (v_23 * u_1_10_2);
-                const float v_574 = v_571 - (v_25 * u_1_10_2);
-                const float v_575 = v_570 - u_1_10_2;
-                const float u_1_9 = before->factors[20];
-                const float v_576 = (u_1_9 + (f_1_6 * u_6_9)) + (f_1_8 * u_8_9);
-                const float u_1_7 = before->factors[18];
-                const float v_577 = u_1_7 + (f_1_6 * u_6_7);
-                const float u_1_8 = before->factors[19];
-                const float v_578 = f_1_8 + (u_1_8 + (f_1_6 * u_6_8));
-                const float v_579 = (v_574 * v_36) + ((v_575 * v_38) + ((v_576 * v_40) + ((v_577 * v_41) + (v_578 *
-                    v_43))));
-                const float u_1_9_2 = per_d_9 * ((v_572 * v_32) + ((v_573 * v_34) + v_579));
-                const float v_580 = -u_1_9_2;
-                const float v_581 = v_572 - (v_31 * u_1_9_2);
-                const float v_582 = v_573 - (v_33 * u_1_9_2);
-                const float v_583 = v_574 - (v_35 * u_1_9_2);
-                const float v_584 = v_575 - (v_37 * u_1_9_2);
-                const float v_585 = v_576 - (v_39 * u_1_9_2);
-                const float v_586 = v_577 - (f_9_7 * u_1_9_2);
-                const float v_587 = v_578 - (v_42 * u_1_9_2);
-                const float v_588 = (v_583 * v_64) + ((v_584 * v_66) + ((v_585 * v_70) + ((v_586 * v_58) + (v_587 *
-                    v_68))));
-                const float u_1_8_2 = per_d_8 * ((v_580 * v_56) + ((v_581 * v_60) + ((v_582 * v_62) + v_588)));
-                const float v_589 = -u_1_8_2;
-                const float v_590 = v_580 - (v_55 * u_1_8_2);
-                const float v_591 = v_581 - (v_59 * u_1_8_2);
-                const float v_592 = v_582 - (v_61 * u_1_8_2);
-                const float v_593 = v_583 - (v_63 * u_1_8_2);
-                const float v_594 = v_584 - (v_65 * u_1_8_2);
-                const float v_595 = v_585 - (v_69 * u_1_8_2);
-                const float v_596 = v_586 - (v_57 * u_1_8_2);
-                const float v_597 = v_587 - (v_67 * u_1_8_2);
-                const float v_598 = (v_593 * v_100) + ((v_594 * v_102) + ((v_595 * v_104) + ((v_596 * v_106) + (v_597 *
-                    v_108))));
-                const float u_1_7_2 = per_d_7 * ((v_589 * v_92) + ((v_590 * v_94) + ((v_591 * v_96) + ((v_592 * v_98) +
-                    v_598))));
-                const float v_599 = -u_1_7_2;
-                const float v_600 = v_589 - (v_91 * u_1_7_2);
-                const float v_601 = v_590 - (v_93 * u_1_7_2);
-                const float v_602 = v_591 - (v_95 * u_1_7_2);
-                const float v_603 = v_592 - (v_97 * u_1_7_2);
-                const float v_604 = v_593 - (v_99 * u_1_7_2);
-                const float v_605 = v_594 - (v_101 * u_1_7_2);
-                const float v_606 = v_595 - (v_103 * u_1_7_2);
-                const float v_607 = v_597 - (v_107 * u_1_7_2);
-                const float u_1_6 = before->factors[17];
-                const float v_608 = f_1_6 + u_1_6;
-                const float v_609 = v_596 - (v_105 * u_1_7_2);
-                const float v_610 = (v_605 * v_154) + ((v_606 * v_156) + ((v_607 * v_158) + ((d_6 * v_608) + (v_609 *
-                    v_160))));
-                const float v_611 = (v_600 * v_144) + ((v_601 * v_146) + ((v_602 * v_148) + ((v_603 * v_150) + ((v_604 *
-                    v_152) + v_610))));
-                const float u_1_6_2 = per_d_6 * ((v_599 * v_142) + v_611);
-                const float v_612 = -u_1_6_2;
-                const float v_613 = v_599 - (v_141 * u_1_6_2);
-                const float v_614 = v_600 - (v_143 * u_1_6_2);
-                const float v_615 = v_601 - (v_145 * u_1_6_2);
-                const float v_616 = v_602 - (v_147 * u_1_6_2);
-                const float v_617 = v_603 - (v_149 * u_1_6_2);
-                const float v_618 = v_604 - (v_151 * u_1_6_2);
-                const float v_619 = v_605 - (v_153 * u_1_6_2);
-                const float v_620 = v_606 - (v_155 * u_1_6_2);
-                const float v_621 = v_607 - (v_157 * u_1_6_2);
-                const float v_622 = v_609 - (v_159 * u_1_6_2);
-                const float u_1_5 = before->factors[16];
-                const float v_623 = v_608 - u_1_6_2;
-                const float v_624 = (v_620 * v_224) + ((v_621 * v_226) + ((v_622 * v_228) + ((u_1_5 * d_5) + (v_623 *
-                    v_230))));
-                const float v_625 = (v_615 * v_214) + ((v_616 * v_216) + ((v_617 * v_218) + ((v_618 * v_220) + ((v_619 *
-                    v_222) + v_624))));
-                const float u_1_5_2 = per_d_5 * ((v_612 * v_208) + ((v_613 * v_210) + ((v_614 * v_212) + v_625)));
-                const float v_626 = -u_1_5_2;
-                const float v_627 = v_612 - (v_207 * u_1_5_2);
-                const float v_628 = v_613 - (v_209 * u_1_5_2);
-                const float v_629 = v_614 - (v_211 * u_1_5_2);
-                const float v_630 = v_615 - (v_213 * u_1_5_2);
-                const float v_631 = v_616 - (v_215 * u_1_5_2);
-                const float v_632 = v_617 - (v_217 * u_1_5_2);
-                const float v_633 = v_618 - (v_219 * u_1_5_2);
-                const float v_634 = v_619 - (v_221 * u_1_5_2);
-                const float v_635 = v_620 - (v_223 * u_1_5_2);
-                const float v_636 = v_621 - (v_225 * u_1_5_2);
-                const float v_637 = v_622 - (v_227 * u_1_5_2);
-                const float v_638 = v_623 - (v_229 * u_1_5_2);
-                const float u_1_4 = before->factors[15];
-                const float v_639 = u_1_5 - u_1_5_2;
-                const float v_640 = (v_636 * v_313) + ((v_637 * v_315) + ((v_638 * v_317) + ((u_1_4 * d_4) + (v_639 *
-                    v_319))));
-                const float v_641 = (v_631 * v_303) + ((v_632 * v_305) + ((v_633 * v_307) + ((v_634 * v_309) + ((v_635 *
-                    v_311) + v_640))));
-                const float v_642 = (v_626 * v_293) + ((v_627 * v_295) + ((v_628 * v_297) + ((v_629 * v_299) + ((v_630 *
-                    v_301) + v_641))));
-                const float u_1_4_2 = per_d_4 * v_642;
-                const float v_643 = -u_1_4_2;
-                const float v_644 = v_626 - (v_292 * u_1_4_2);
-                const float v_645 = v_627 - (v_294 * u_1_4_2);
-                const float v_646 = v_628 - (v_296 * u_1_4_2);
-                const float v_647 = v_629 - (v_298 * u_1_4_2);
-                const float v_648 = v_630 - (v_300 * u_1_4_2);
-                const float v_649 = v_631 - (v_302 * u_1_4_2);
-                const float v_650 = v_632 - (v_304 * u_1_4_2);
-                const float v_651 = v_633 - (v_306 * u_1_4_2);
-                const float v_652 = v_634 - (v_308 * u_1_4_2);
-                const float v_653 = v_635 - (v_310 * u_1_4_2);
-                const float v_654 = v_636 - (v_312 * u_1_4_2);
-                const float v_655 = v_637 - (v_314 * u_1_4_2);
-                const float v_656 = v_638 - (v_316 * u_1_4_2);
-                const float v_657 = v_639 - (v_318 * u_1_4_2);
-                const float u_1_3 = before->factors[14];
-                const float v_658 = u_1_4 - u_1_4_2;
-                const float v_659 = (v_655 * v_422) + ((v_656 * v_424) + ((v_657 * v_426) + ((u_1_3 * d_3) + (v_658 *
-                    v_428))));
-                const float v_660 = (v_650 * v_412) + ((v_651 * v_414) + ((v_652 * v_416) + ((v_653 * v_418) + ((v_654 *
-                    v_420) + v_659))));
-                const float v_661 = (v_645 * v_402) + ((v_646 * v_404) + ((v_647 * v_406) + ((v_648 * v_408) + ((v_649 *
-                    v_410) + v_660))));
-                const float u_1_3_2 = per_d_3 * ((v_643 * v_398) + ((v_644 * v_400) + v_661));
-                const float v_662 = -u_1_3_2;
-                const float v_663 = v_643 - (v_397 * u_1_3_2);
-                const float v_664 = v_644 - (v_399 * u_1_3_2);
-                const float v_665 = v_645 - (v_401 * u_1_3_2);
-                const float v_666 = v_646 - (v_403 * u_1_3_2);
-                const float v_667 = v_647 - (v_405 * u_1_3_2);
-                const float v_668 = v_648 - (v_407 * u_1_3_2);
-                const float v_669 = v_649 - (v_409 * u_1_3_2);
-                const float v_670 = v_650 - (v_411 * u_1_3_2);
-                const float v_671 = v_651 - (v_413 * u_1_3_2);
-                const float v_672 = v_652 - (v_415 * u_1_3_2);
-                const float v_673 = v_653 - (v_417 * u_1_3_2);
-                const float v_674 = v_654 - (v_419 * u_1_3_2);
-                const float v_675 = v_655 - (v_421 * u_1_3_2);
-                const float v_676 = v_656 - (v_423 * u_1_3_2);
-                const float v_677 = v_657 - (v_425 * u_1_3_2);
-                const float v_678 = v_658 - (v_427 * u_1_3_2);
-                const float u_1_2 = before->factors[13];
-                const float v_679 = u_1_3 - u_1_3_2;
-                const float v_680 = (v_676 * v_558) + ((v_677 * v_560) + ((v_678 * v_562) + ((u_1_2 * d_2) + (v_679 *
-                    v_564))));
-                const float v_681 = (v_671 * v_548) + ((v_672 * v_550) + ((v_673 * v_552) + ((v_674 * v_554) + ((v_675 *
-                    v_556) + v_680))));
-                const float v_682 = (v_666 * v_538) + ((v_667 * v_540) + ((v_668 * v_542) + ((v_669 * v_544) + ((v_670 *
-                    v_546) + v_681))));
-                const float u_1_2_2 = per_d_2 * ((v_662 * v_530) + ((v_663 * v_532) + ((v_664 * v_534) + ((v_665 *
-                    v_536) + v_682))));
-                const float v_683 = -u_1_2_2;
-                const float v_684 = q_2_2 * v_683;
-                const float v_685 = v_662 - (v_529 * u_1_2_2);
-                const float v_686 = q_3_3 * v_685;
-                const float v_687 = v_663 - (v_531 * u_1_2_2);
-                const float v_688 = q_4_4 * v_687;
-                const float v_689 = v_664 - (v_533 * u_1_2_2);
-                const float v_690 = q_5_5 * v_689;
-                const float v_691 = v_665 - (v_535 * u_1_2_2);
-                const float v_692 = q_6_6 * v_691;
-                const float v_693 = v_666 - (v_537 * u_1_2_2);
-                const float v_694 = q_7_7 * v_693;
-                const float v_695 = v_667 - (v_539 * u_1_2_2);
-                const float v_696 = q_8_8 * v_695;
-                const float v_697 = v_668 - (v_541 * u_1_2_2);
-                const float v_698 = q_9_9 * v_697;
-                const float v_699 = v_669 - (v_543 * u_1_2_2);
-                const float v_700 = q_10_10 * v_699;
-                const float v_701 = v_670 - (v_545 * u_1_2_2);
-                const float v_702 = q_11_11 * v_701;
-                const float q_1_1 = params->variance_step_vx;
-                const float v_703 = v_671 - (v_547 * u_1_2_2);
-                const float v_704 = d_11 * v_703;
-                const float v_705 = v_672 - (v_549 * u_1_2_2);
-                const float v_706 = d_10 * v_705;
-                const float v_707 = v_673 - (v_551 * u_1_2_2);
-                const float v_708 = d_9 * v_707;
-                const float v_709 = v_674 - (v_553 * u_1_2_2);
-                const float v_710 = d_8 * v_709;
-                const float v_711 = v_675 - (v_555 * u_1_2_2);
-                const float v_712 = d_7 * v_711;
-                const float v_713 = v_676 - (v_557 * u_1_2_2);
-                const float v_714 = d_6 * v_713;
-                const float v_715 = v_677 - (v_559 * u_1_2_2);
-                const float v_716 = d_5 * v_715;
-                const float v_717 = v_678 - (v_561 * u_1_2_2);
-                const float v_718 = d_4 * v_717;
-                const float v_719 = v_679 - (v_563 * u_1_2_2);
-                const float v_720 = d_3 * v_719;
-                const float d_1 = before->factors[12];
-                const float v_721 = u_1_2 - u_1_2_2;
-                const float v_722 = d_2 * v_721;
-                const float v_723 = (v_713 * v_714) + ((v_715 * v_716) + ((v_717 * v_718) + ((v_719 * v_720) + (d_1 +
-                    (v_721 * v_722)))));
-                const float v_724 = (v_703 * v_704) + ((v_705 * v_706) + ((v_707 * v_708) + ((v_709 * v_710) + ((v_711 *
-                    v_712) + v_723))));
-                const float v_725 = (v_695 * v_696) + ((v_697 * v_698) + ((v_699 * v_700) + ((v_701 * v_702) + (q_1_1 +
-                    v_724))));
-                const float v_726 = (v_685 * v_686) + ((v_687 * v_688) + ((v_689 * v_690) + ((v_691 * v_692) + ((v_693 *
-                    v_694) + v_725))));
-                const float d_1_2 = (v_683 * v_684) + v_726;
-                const float per_d_1 = 1.0f / ((d_1_2 >= 1.0e-30f) ? d_1_2 : 1.0f);
-                const float v_727 = before->factors[11] + (0.025f * u_1_11);
-                const float u_0_11 = per_d_11 * (d_11 * v_727);
-                const float v_728 = -u_0_11;
-                const float v_729 = before->factors[10] + (0.025f * u_1_10);
-                const float v_730 = v_727 - u_0_11;
-                const float u_0_10 = per_d_10 * ((v_728 * v_24) + ((d_10 * v_729) + (v_730 * v_26)));
-                const float v_731 = -u_0_10;
-                const float v_732 = v_728 - (v_23 * u_0_10);
-                const float v_733 = v_730 - (v_25 * u_0_10);
-                const float v_734 = v_729 - u_0_10;
-                const float v_735 = before->factors[9] + (0.025f * u_1_9);
-                const float v_736 = before->factors[7] + (0.025f * u_1_7);
-                const float v_737 = before->factors[8] + (0.025f * u_1_8);
-                const float v_738 = (v_733 * v_36) + ((v_734 * v_38) + ((v_735 * v_40) + ((v_736 * v_41) + (v_737 *
-                    v_43))));
-                const float u_0_9 = per_d_9 * ((v_731 * v_32) + ((v_732 * v_34) + v_738));
-                const float v_739 = -u_0_9;
-                const float v_740 = v_731 - (v_31 * u_0_9);
-                const float v_741 = v_732 - (v_33 * u_0_9);
-                const float v_742 = v_733 - (v_35 * u_0_9);
-                const float v_743 = v_734 - (v_37 * u_0_9);
-                const float v_744 = v_735 - (v_39 * u_0_9);
-                const float v_745 = v_736 - (f_9_7 * u_0_9);
-                const float v_746 = v_737 - (v_42 * u_0_9);
-                const float v_747 = (v_742 * v_64) + ((v_743 * v_66) + ((v_744 * v_70) + ((v_745 * v_58) + (v_746 *
-                    v_68))));
-                const float u_0_8 = per_d_8 * ((v_739 * v_56) + ((v_740 * v_60) + ((v_741 * v_62) + v_747)));
-                const float v_748 = -u_0_8;
-                const float v_749 = v_739 - (v_55 * u_0_8);
-                const float v_750 = v_740 - (v_59 * u_0_8);
-                const float v_751 = v_741 - (v_61 * u_0_8);
-                const float v_752 = v_742 - (v_63 * u_0_8);
-                const float v_753 = v_743 - (v_65 * u_0_8);
-                const float v_754 = v_744 - (v_69 * u_0_8);
-                const float v_755 = v_745 - (v_57 * u_0_8);
-                const float v_756 = v_746 - (v_67 * u_0_8);
-                const float v_757 = (v_752 * v_100) + ((v_753 * v_102) + ((v_754 * v_104) + ((v_755 * v_106) + (v_756 *
-                    v_108))));
-                const float u_0_7 = per_d_7 * ((v_748 * v_92) + ((v_749 * v_94) + ((v_750 * v_96) + ((v_751 * v_98) +
-                    v_757))));
-                const float v_758 = -u_0_7;
-                const float v_759 = v_748 - (v_91 * u_0_7);
-                const float v_760 = v_749 - (v_93 * u_0_7);
-                const float v_761 = v_750 - (v_95 * u_0_7);
-                const float v_762 = v_751 - (v_97 * u_0_7);
-                const float v_763 = v_752 - (v_99 * u_0_7);
-                const float v_764 = v_753 - (v_101 * u_0_7);
-                const float v_765 = v_754 - (v_103 * u_0_7);
-                const float v_766 = v_756 - (v_107 * u_0_7);
-                const float v_767 = before->factors[6] + (0.025f * u_1_6);
-                const float v_768 = v_755 - (v_105 * u_0_7);
-                const float v_769 = (v_764 * v_154) + ((v_765 * v_156) + ((v_766 * v_158) + ((d_6 * v_767) + (v_768 *
-                    v_160))));
-                const float v_770 = (v_759 * v_144) + ((v_760 * v_146) + ((v_761 * v_148) + ((v_762 * v_150) + ((v_763 *
-                    v_152) + v_769))));
-                const float u_0_6 = per_d_6 * ((v_758 * v_142) + v_770);
-                const float v_771 = -u_0_6;
-                const float v_772 = v_758 - (v_141 * u_0_6);
-                const float v_773 = v_759 - (v_143 * u_0_6);
-                const float v_774 = v_760 - (v_145 * u_0_6);
-                const float v_775 = v_761 - (v_147 * u_0_6);
-                const float v_776 = v_762 - (v_149 * u_0_6);
-                const float v_777 = v_763 - (v_151 * u_0_6);
-                const float v_778 = v_764 - (v_153 * u_0_6);
-                const float v_779 = v_765 - (v_155 * u_0_6);
-                const float v_780 = v_766 - (v_157 * u_0_6);
-                const float v_781 = v_768 - (v_159 * u_0_6);
-                const float v_782 = before->factors[5] + (0.025f * u_1_5);
-                const float v_783 = v_767 - u_0_6;
-                const float v_784 = (v_779 * v_224) + ((v_780 * v_226) + ((v_781 * v_228) + ((d_5 * v_782) + (v_783 *
-                    v_230))));
-                const float v_785 = (v_774 * v_214) + ((v_775 * v_216) + ((v_776 * v_218) + ((v_777 * v_220) + ((v_778 *
-                    v_222) + v_784))));
-                const float u_0_5 = per_d_5 * ((v_771 * v_208) + ((v_772 * v_210) + ((v_773 * v_212) + v_785)));
-                const float v_786 = -u_0_5;
-                const float v_787 = v_771 - (v_207 * u_0_5);
-                const float v_788 = v_772 - (v_209 * u_0_5);
-                const float v_789 = v_773 - (v_211 * u_0_5);
-                const float v_790 = v_774 - (v_213 * u_0_5);
-                const float v_791 = v_775 - (v_215 * u_0_5);
-                const float v_792 = v_776 - (v_217 * u_0_5);
-                const float v_793 = v_777 - (v_219 * u_0_5);
-                const float v_794 = v_778 - (v_221 * u_0_5);
-                const float v_795 = v_779 - (v_223 * u_0_5);
-                const float v_796 = v_780 - (v_225 * u_0_5);
-                const float v_797 = v_781 - (v_227 * u_0_5);
-                const float v_798 = v_783 - (v_229 * u_0_5);
-                const float v_799 = before->factors[4] + (0.025f * u_1_4);
-                const float v_800 = v_782 - u_0_5;
-                const float v_801 = (v_796 * v_313) + ((v_797 * v_315) + ((v_798 * v_317) + ((d_4 * v_799) + (v_800 *
-                    v_319))));
-                const float v_802 = (v_791 * v_303) + ((v_792 * v_305) + ((v_793 * v_307) + ((v_794 * v_309) + ((v_795 *
-                    v_311) + v_801))));
-                const float v_803 = (v_786 * v_293) + ((v_787 * v_295) + ((v_788 * v_297) + ((v_789 * v_299) + ((v_790 *
-                    v_301) + v_802))));
-                const float u_0_4 = per_d_4 * v_803;
-                const float v_804 = -u_0_4;
-                const float v_805 = v_786 - (v_292 * u_0_4);
-                const float v_806 = v_787 - (v_294 * u_0_4);
-                const float v_807 = v_788 - (v_296 * u_0_4);
-                const float v_808 = v_789 - (v_298 * u_0_4);
-                const float v_809 = v_790 - (v_300 * u_0_4);
-                const float v_810 = v_791 - (v_302 * u_0_4);
-                const float v_811 = v_792 - (v_304 * u_0_4);
-                const float v_812 = v_793 - (v_306 * u_0_4);
-                const float v_813 = v_794 - (v_308 * u_0_4);
-                const float v_814 = v_795 - (v_310 * u_0_4);
-                const float v_815 = v_796 - (v_312 * u_0_4);
-                const float v_816 = v_797 - (v_314 * u_0_4);
-                const float v_817 = v_798 - (v_316 * u_0_4);
-                const float v_818 = v_800 - (v_318 * u_0_4);
-                const float v_819 = before->factors[3] + (0.025f * u_1_3);
-                const float v_820 = v_799 - u_0_4;
-                const float v_821 = (v_816 * v_422) + ((v_817 * v_424) + ((v_818 * v_426) + ((d_3 * v_819) + (v_820 *
-                    v_428))));
-                const float v_822 = (v_811 * v_412) + ((v_812 * v_414) + ((v_813 * v_416) + ((v_814 * v_418) + ((v_815 *
-                    v_420) + v_821))));
-                const float v_823 = (v_806 * v_402) + ((v_807 * v_404) + ((v_808 * v_406) + ((v_809 * v_408) + ((v_810 *
-                    v_410) + v_822))));
-                const float u_0_3 = per_d_3 * ((v_804 * v_398) + ((v_805 * v_400) + v_823));
-                const float v_824 = -u_0_3;
-                const float v_825 = v_804 - (v_397 * u_0_3);
-                const float v_826 = v_805 - (v_399 * u_0_3);
-                const float v_827 = v_806 - (v_401 * u_0_3);
-                const float v_828 = v_807 - (v_403 * u_0_3);
-                const float v_829 = v_808 - (v_405 * u_0_3);
-                const float v_830 = v_809 - (v_407 * u_0_3);
-                const float v_831 = v_810 - (v_409 * u_0_3);
-                const float v_832 = v_811 - (v_411 * u_0_3);
-                const float v_833 = v_812 - (v_413 * u_0_3);
-                const float v_834 = v_813 - (v_415 * u_0_3);
-                const float v_835 = v_814 - (v_417 * u_0_3);
-                const float v_836 = v_815 - (v_419 * u_0_3);
-                const float v_837 = v_816 - (v_421 * u_0_3);
-                const float v_838 = v_817 - (v_423 * u_0_3);
-                const float v_839 = v_818 - (v_425 * u_0_3);
-                const float v_840 = v_820 - (v_427 * u_0_3);
-                const float v_841 = before->factors[2] + (0.025f * u_1_2);
-                const float v_842 = v_819 - u_0_3;
-                const float v_843 = (v_838 * v_558) + ((v_839 * v_560) + ((v_840 * v_562) + ((d_2 * v_841) + (v_842 *
-                    v_564))));
-                const float v_844 = (v_833 * v_548) + ((v_834 * v_550) + ((v_835 * v_552) + ((v_836 * v_554) + ((v_837 *
-                    v_556) + v_843))));
-                const float v_845 = (v_828 * v_538) + ((v_829 * v_540) + ((v_830 * v_542) + ((v_831 * v_544) + ((v_832 *
-                    v_546) + v_844))));
-                const float u_0_2 = per_d_2 * ((v_824 * v_530) + ((v_825 * v_532) + ((v_826 * v_534) + ((v_827 * v_536)
-                    + v_845))));
-                const float v_846 = -u_0_2;
-                const float v_847 = v_824 - (v_529 * u_0_2);
-                const float v_848 = v_825 - (v_531 * u_0_2);
-                const float v_849 = v_826 - (v_533 * u_0_2);
-                const float v_850 = v_827 - (v_535 * u_0_2);
-                const float v_851 = v_828 - (v_537 * u_0_2);
-                const float v_852 = v_829 - (v_539 * u_0_2);
-                const float v_853 = v_830 - (v_541 * u_0_2);
-                const float v_854 = v_831 - (v_543 * u_0_2);
-                const float v_855 = v_832 - (v_545 * u_0_2);
-                const float v_856 = v_833 - (v_547 * u_0_2);
-                const float v_857 = v_834 - (v_549 * u_0_2);
-                const float v_858 = v_835 - (v_551 * u_0_2);
-                const float v_859 = v_836 - (v_553 * u_0_2);
-                const float v_860 = v_837 - (v_555 * u_0_2);
-                const float v_861 = v_838 - (v_557 * u_0_2);
-                const float v_862 = v_839 - (v_559 * u_0_2);
-                const float v_863 = v_840 - (v_561 * u_0_2);
-                const float v_864 = v_842 - (v_563 * u_0_2);
-                const float v_865 = 0.025f + before->factors[1];
-                const float v_866 = v_841 - u_0_2;
-                const float v_867 = (v_862 * v_716) + ((v_863 * v_718) + ((v_864 * v_720) + ((d_1 * v_865) + (v_866 *
-                    v_722))));
-                const float v_868 = (v_857 * v_706) + ((v_858 * v_708) + ((v_859 * v_710) + ((v_860 * v_712) + ((v_861 *
-                    v_714) + v_867))));
-                const float v_869 = (v_852 * v_696) + ((v_853 * v_698) + ((v_854 * v_700) + ((v_855 * v_702) + ((v_856 *
-                    v_704) + v_868))));
-                const float v_870 = (v_847 * v_686) + ((v_848 * v_688) + ((v_849 * v_690) + ((v_850 * v_692) + ((v_851 *
-                    v_694) + v_869))));
-                const float u_0_1 = per_d_1 * ((v_846 * v_684) + v_870);
-                const float v_871 = -u_0_1;
-                const float v_872 = v_846 - (v_683 * u_0_1);
-                const float v_873 = v_847 - (v_685 * u_0_1);
-                const float v_874 = v_848 - (v_687 * u_0_1);
-                const float v_875 = v_849 - (v_689 * u_0_1);
-                const float v_876 = v_850 - (v_691 * u_0_1);
-                const float v_877 = v_851 - (v_693 * u_0_1);
-                const float v_878 = v_852 - (v_695 * u_0_1);
-                const float v_879 = v_853 - (v_697 * u_0_1);
-                const float v_880 = v_854 - (v_699 * u_0_1);
-                const float v_881 = v_855 - (v_701 * u_0_1);
-                const float v_882 = v_856 - (v_703 * u_0_1);
-                const float v_883 = v_857 - (v_705 * u_0_1);
-                const float v_884 = v_858 - (v_707 * u_0_1);
-                const float v_885 = v_859 - (v_709 * u_0_1);
-                const float v_886 = v_860 - (v_711 * u_0_1);
-                const float v_887 = v_861 - (v_713 * u_0_1);
-                const float v_888 = v_862 - (v_715 * u_0_1);
-                const float v_889 = v_863 - (v_717 * u_0_1);
-                const float v_890 = v_864 - (v_719 * u_0_1);
-                const float v_891 = v_866 - (v_721 * u_0_1);
-                const float v_892 = v_865 - u_0_1;
-                const float v_893 = (v_890 * (d_3 * v_890)) + ((v_891 * (d_2 * v_891)) + (before->factors[0] + (v_892 *
-                    (d_1 * v_892))));
-                const float v_894 = (v_887 * (d_6 * v_887)) + ((v_888 * (d_5 * v_888)) + ((v_889 * (d_4 * v_889)) +
-                    v_893));
-                const float v_895 = (v_884 * (d_9 * v_884)) + ((v_885 * (d_8 * v_885)) + ((v_886 * (d_7 * v_886)) +
-                    v_894));
-                const float v_896 = params->variance_step_x + ((v_882 * (d_11 * v_882)) + ((v_883 * (d_10 * v_883)) +
-                    v_895));
-                const float v_897 = (v_879 * (q_9_9 * v_879)) + ((v_880 * (q_10_10 * v_880)) + ((v_881 * (q_11_11 *
-                    v_881)) + v_896));
-                const float v_898 = (v_876 * (q_6_6 * v_876)) + ((v_877 * (q_7_7 * v_877)) + ((v_878 * (q_8_8 * v_878))
-                    + v_897));
-                const float v_899 = (v_873 * (q_3_3 * v_873)) + ((v_874 * (q_4_4 * v_874)) + ((v_875 * (q_5_5 * v_875))
-                    + v_898));
-                after->factors[0] = (v_871 * (q_1_1 * v_871)) + ((v_872 * (q_2_2 * v_872)) + v_899);
-                after->factors[1] = u_0_1;
-                after->factors[2] = u_0_2;
-                after->factors[3] = u_0_3;
-                after->factors[4] = u_0_4;
-                after->factors[5] = u_0_5;
-                after->factors[6] = u_0_6;
-                after->factors[7] = u_0_7;
-                after->factors[8] = u_0_8;
-                after->factors[9] = u_0_9;
-                after->factors[10] = u_0_10;
-                after->factors[11] = u_0_11;
-                after->factors[12] = d_1_2;
-                after->factors[13] = u_1_2_2;
-                after->factors[14] = u_1_3_2;
-                after->factors[15] = u_1_4_2;
-                after->factors[16] = u_1_5_2;
-                after->factors[17] = u_1_6_2;
-                after->factors[18] = u_1_7_2;
-                after->factors[19] = u_1_8_2;
-                after->factors[20] = u_1_9_2;
-                after->factors[21] = u_1_10_2;
-                after->factors[22] = u_1_11_2;
-                after->factors[23] = d_2_2;
-                after->factors[24] = u_2_3;
-                after->factors[25] = u_2_4;
-                after->factors[26] = u_2_5;
-                after->factors[27] = u_2_6;
-                after->factors[28] = u_2_7;
-                after->factors[29] = u_2_8;
-                after->factors[30] = u_2_9;
-                after->factors[31] = u_2_10;
-                after->factors[32] = u_2_11;
-                after->factors[33] = d_3_2;
-                after->factors[34] = u_3_4_2;
-                after->factors[35] = u_3_5_2;
-                after->factors[36] = u_3_6_2;
-                after->factors[37] = u_3_7_2;
-                after->factors[38] = u_3_8_2;
-                after->factors[39] = u_3_9_2;
-                after->factors[40] = u_3_10_2;
-                after->factors[41] = u_3_11_2;
-                after->factors[42] = d_4_2;
-                after->factors[43] = u_4_5;
-                after->factors[44] = u_4_6;
-                after->factors[45] = u_4_7;
-                after->factors[46] = u_4_8;
-                after->factors[47] = u_4_9;
-                after->factors[48] = u_4_10;
-                after->factors[49] = u_4_11;
-                after->factors[50] = d_5_2;
-                after->factors[51] = u_5_6_2;
-                after->factors[52] = u_5_7_2;
-                after->factors[53] = u_5_8_2;
-                after->factors[54] = u_5_9_2;
-                after->factors[55] = u_5_10_2;
-                after->factors[56] = u_5_11_2;
-                after->factors[57] = d_6_2;
-                after->factors[58] = u_6_7_2;
-                after->factors[59] = u_6_8_2;
-                after->factors[60] = u_6_9_2;
-                after->factors[61] = u_6_10_2;
-                after->factors[62] = u_6_11_2;
-                after->factors[63] = d_7_2;
-                after->factors[64] = u_7_8_2;
-                after->factors[65] = u_7_9_2;
-                after->factors[66] = u_7_10_2;
-                after->factors[67] = u_7_11_2;
-                after->factors[68] = d_8_2;
-                after->factors[69] = u_8_9_2;
-                after->factors[70] = u_8_10_2;
-                after->factors[71] = u_8_11_2;
-                after->factors[72] = d_9_2;
-                after->factors[73] = u_9_10_2;
-                after->factors[74] = u_9_11_2;
-                after->factors[75] = d_10_2;
-                after->factors[76] = u_10_11_2;
-                after->factors[77] = d_11_2;
+                status = QUADROTOR_UD_OVERFLOW;
             }
-
-            /* judge, then commit */
-            status = quadrotor_ud_hold_factors(after->factors);
-            if (status >= QUADROTOR_UD_OK)
+            else
             {
-                if (!(((after->x >= -10000.0f) == true) && ((after->x <= 10000.0f) == true)
-                      && ((after->vx >= -1000.0f) == true) && ((after->vx <= 1000.0f) == true)
-                      && ((after->y >= -10000.0f) == true) && ((after->y <= 10000.0f) == true)
-                      && ((after->vy >= -1000.0f) == true) && ((after->vy <= 1000.0f) == true)
-                      && ((after->z >= -10000.0f) == true) && ((after->z <= 10000.0f) == true)
-                      && ((after->vz >= -1000.0f) == true) && ((after->vz <= 1000.0f) == true)
-                      && ((after->roll >= -30.0f) == true) && ((after->roll <= 30.0f) == true)
-                      && ((after->roll_rate >= -100.0f) == true) && ((after->roll_rate <= 100.0f) == true)
-                      && ((after->pitch >= -30.0f) == true) && ((after->pitch <= 30.0f) == true)
-                      && ((after->pitch_rate >= -100.0f) == true) && ((after->pitch_rate <= 100.0f) == true)
-                      && ((after->yaw >= -30.0f) == true) && ((after->yaw <= 30.0f) == true)
-                      && ((after->yaw_rate >= -100.0f) == true) && ((after->yaw_rate <= 100.0f) == true)))
+                out->nis = nis[0];
+
+                /* accepted? */
+                if ((gate <= 0.0f) || (nis[0] <= gate))
                 {
-                    status = QUADROTOR_UD_OVERFLOW;
+                    /* x = x + d */
+                    after->x = before->x + delta[0];
+                    after->vx = before->vx + delta[1];
+                    after->y = before->y + delta[2];
+                    after->vy = before->vy + delta[3];
+                    after->z = before->z + delta[4];
+                    after->vz = before->vz + delta[5];
+                    after->roll = before->roll + delta[6];
+                    after->roll_rate = before->roll_rate + delta[7];
+                    after->pitch = before->pitch + delta[8];
+                    after->pitch_rate = before->pitch_rate + delta[9];
+                    after->yaw = before->yaw + delta[10];
+                    after->yaw_rate = before->yaw_rate + delta[11];
+                    after->rejected_pose = 0U;
+
+                    /* judge, then commit */
+                    if (!quadrotor_ud_is_bounded(after->factors))
+                    {
+                        status = quadrotor_ud_hold_factors(after->factors);
+                    }
+                    if (status >= QUADROTOR_UD_OK)
+                    {
+                        if (!(((after->x >= -10000.0f) == true) && ((after->x <= 10000.0f) == true)
+                              && ((after->vx >= -1000.0f) == true) && ((after->vx <= 1000.0f) == true)
+                              && ((after->y >= -10000.0f) == true) && ((after->y <= 10000.0f) == true)
+                              && ((after->vy >= -1000.0f) == true) && ((after->vy <= 1000.0f) == true)
+                              && ((after->z >= -10000.0f) == true) && ((after->z <= 10000.0f) == true)
+                              && ((after->vz >= -1000.0f) == true) && ((after->vz <= 1000.0f) == true)
+                              && ((after->roll >= -30.0f) == true) && ((after->roll <= 30.0f) == true)
+                              && ((after->roll_rate >= -100.0f) == true) && ((after->roll_rate <= 100.0f) == true)
+                              && ((after->pitch >= -30.0f) == true) && ((after->pitch <= 30.0f) == true)
+                              && ((after->pitch_rate >= -100.0f) == true) && ((after->pitch_rate <= 100.0f) == true)
+                              && ((after->yaw >= -30.0f) == true) && ((after->yaw <= 30.0f) == true)
+                              && ((after->yaw_rate >= -100.0f) == true) && ((after->yaw_rate <= 100.0f) == true)))
+                        {
+                            status = QUADROTOR_UD_OVERFLOW;
+                        }
+                    }
+                }
+                else
+                {
+                    *after = *before;
+                    if (after->rejected_pose < UINT32_MAX)
+                    {
+                        after->rejected_pose = after->rejected_pose + 1U;
+                    }
+                    status = quadrotor_ud_higher(status, QUADROTOR_UD_GATED);
                 }
             }
         }
@@ -1741,15 +2816,11 @@ static quadrotor_ud_status_t quadrotor_ud_predict_core(const quadrotor_ud_state_
     return status;
 }
 
-/* 714 additions, 884 multiplications, 42 divisions, 36 negations, 42 selections. */
 static quadrotor_ud_status_t quadrotor_ud_update_pose_core(const quadrotor_ud_state_t *before,
                                                            quadrotor_ud_state_t *after,
                                                            const quadrotor_ud_params_t *params, const float pose[6],
                                                            const float gate, quadrotor_ud_update_pose_out_t *out)
 {
-    float delta[12];
-    float nis[1];
-    float row_variance[6];
     quadrotor_ud_status_t status = QUADROTOR_UD_OK;
 
     if (!(((pose[0] >= -1000000.0f) == true) && ((pose[0] <= 1000000.0f) == true) && ((pose[1] >= -1000000.0f) == true)
@@ -1763,1141 +2834,7 @@ static quadrotor_ud_status_t quadrotor_ud_update_pose_core(const quadrotor_ud_st
     }
     else
     {
-        /* residual[0] = pose[0] - x */
-        /* residual[1] = pose[1] - y */
-        /* residual[2] = pose[2] - z */
-        /* residual[3] = pose[3] - roll */
-        /* residual[4] = pose[4] - pitch */
-        /* residual[5] = pose[5] - yaw */
-        const float residual_0 = pose[0] - before->x;
-        const float residual_1 = pose[1] - before->y;
-        const float residual_2 = pose[2] - before->z;
-        const float residual_3 = pose[3] - before->roll;
-        const float residual_4 = pose[4] - before->pitch;
-        const float residual_5 = pose[5] - before->yaw;
-
-        /* variance of the innovation: diagonal of H U D U' H' + R */
-        {
-            const float u_0_11 = before->factors[11];
-            const float d_11 = before->factors[77];
-            const float u_0_10 = before->factors[10];
-            const float d_10 = before->factors[75];
-            const float u_0_9 = before->factors[9];
-            const float d_9 = before->factors[72];
-            const float u_0_8 = before->factors[8];
-            const float d_8 = before->factors[68];
-            const float u_0_7 = before->factors[7];
-            const float d_7 = before->factors[63];
-            const float u_0_6 = before->factors[6];
-            const float d_6 = before->factors[57];
-            const float u_0_5 = before->factors[5];
-            const float d_5 = before->factors[50];
-            const float u_0_4 = before->factors[4];
-            const float d_4 = before->factors[42];
-            const float u_0_3 = before->factors[3];
-            const float d_3 = before->factors[33];
-            const float u_0_2 = before->factors[2];
-            const float d_2 = before->factors[23];
-            const float u_0_1 = before->factors[1];
-            const float v = (u_0_2 * (u_0_2 * d_2)) + (before->factors[0] + (u_0_1 * (u_0_1 * before->factors[12])));
-            const float v_2 = (u_0_6 * (u_0_6 * d_6)) + ((u_0_5 * (u_0_5 * d_5)) + ((u_0_4 * (u_0_4 * d_4)) + ((u_0_3 *
-                (u_0_3 * d_3)) + v)));
-            const float v_3 = (u_0_9 * (u_0_9 * d_9)) + ((u_0_8 * (u_0_8 * d_8)) + ((u_0_7 * (u_0_7 * d_7)) + v_2));
-            out->variance[0] = params->variance_pose[0] + ((u_0_11 * (u_0_11 * d_11)) + ((u_0_10 * (u_0_10 * d_10)) +
-                v_3));
-            const float u_2_11 = before->factors[32];
-            const float u_2_10 = before->factors[31];
-            const float u_2_9 = before->factors[30];
-            const float u_2_8 = before->factors[29];
-            const float u_2_7 = before->factors[28];
-            const float u_2_6 = before->factors[27];
-            const float u_2_5 = before->factors[26];
-            const float u_2_4 = before->factors[25];
-            const float u_2_3 = before->factors[24];
-            const float v_4 = (u_2_5 * (u_2_5 * d_5)) + ((u_2_4 * (u_2_4 * d_4)) + (d_2 + (u_2_3 * (u_2_3 * d_3))));
-            const float v_5 = (u_2_8 * (u_2_8 * d_8)) + ((u_2_7 * (u_2_7 * d_7)) + ((u_2_6 * (u_2_6 * d_6)) + v_4));
-            const float v_6 = (u_2_11 * (u_2_11 * d_11)) + ((u_2_10 * (u_2_10 * d_10)) + ((u_2_9 * (u_2_9 * d_9)) +
-                v_5));
-            out->variance[1] = params->variance_pose[1] + v_6;
-            const float u_4_11 = before->factors[49];
-            const float u_4_10 = before->factors[48];
-            const float u_4_9 = before->factors[47];
-            const float u_4_8 = before->factors[46];
-            const float u_4_7 = before->factors[45];
-            const float u_4_6 = before->factors[44];
-            const float u_4_5 = before->factors[43];
-            const float v_7 = (u_4_7 * (u_4_7 * d_7)) + ((u_4_6 * (u_4_6 * d_6)) + (d_4 + (u_4_5 * (u_4_5 * d_5))));
-            const float v_8 = (u_4_10 * (u_4_10 * d_10)) + ((u_4_9 * (u_4_9 * d_9)) + ((u_4_8 * (u_4_8 * d_8)) + v_7));
-            out->variance[2] = params->variance_pose[2] + ((u_4_11 * (u_4_11 * d_11)) + v_8);
-            const float u_6_11 = before->factors[62];
-            const float u_6_10 = before->factors[61];
-            const float u_6_9 = before->factors[60];
-            const float u_6_8 = before->factors[59];
-            const float u_6_7 = before->factors[58];
-            const float v_9 = (u_6_9 * (u_6_9 * d_9)) + ((u_6_8 * (u_6_8 * d_8)) + (d_6 + (u_6_7 * (u_6_7 * d_7))));
-            out->variance[3] = params->variance_pose[3] + ((u_6_11 * (u_6_11 * d_11)) + ((u_6_10 * (u_6_10 * d_10)) +
-                v_9));
-            const float u_8_11 = before->factors[71];
-            const float u_8_10 = before->factors[70];
-            const float u_8_9 = before->factors[69];
-            const float v_10 = (u_8_11 * (u_8_11 * d_11)) + ((u_8_10 * (u_8_10 * d_10)) + (d_8 + (u_8_9 * (u_8_9 *
-                d_9))));
-            out->variance[4] = params->variance_pose[4] + v_10;
-            const float u_10_11 = before->factors[76];
-            out->variance[5] = params->variance_pose[5] + (d_10 + (u_10_11 * (u_10_11 * d_11)));
-        }
-        out->innovation[0] = residual_0;
-        out->innovation[1] = residual_1;
-        out->innovation[2] = residual_2;
-        out->innovation[3] = residual_3;
-        out->innovation[4] = residual_4;
-        out->innovation[5] = residual_5;
-
-        /* row 0: d = d + K e, Bierman's update of U and D */
-        /* row 1: d = d + K e, Bierman's update of U and D */
-        /* row 2: d = d + K e, Bierman's update of U and D */
-        /* row 3: d = d + K e, Bierman's update of U and D */
-        {
-            const float d_0 = before->factors[0];
-            const float r_0 = params->variance_pose[0];
-            const float v = r_0 + d_0;
-            const float per_a_0 = 1.0f / ((v >= 1.0e-20f) ? v : 1.0f);
-            after->factors[0] = d_0 * (r_0 * per_a_0);
-            const float u_0_1 = before->factors[1];
-            const float loss_1 = -(u_0_1 * per_a_0);
-            after->factors[1] = u_0_1 + (d_0 * loss_1);
-            const float u_0_2 = before->factors[2];
-            const float d_1 = before->factors[12];
-            const float v_2 = u_0_1 * d_1;
-            const float v_3 = u_0_1 * v_2;
-            const float v_4 = d_0 + v_3;
-            const float v_5 = v_3 + v;
-            const float per_a_1 = 1.0f / ((v_5 >= 1.0e-20f) ? v_5 : 1.0f);
-            const float loss_2 = -(u_0_2 * per_a_1);
-            const float v_6 = u_0_2 + (v_4 * loss_2);
-            after->factors[2] = v_6;
-            const float u_0_3 = before->factors[3];
-            const float d_2 = before->factors[23];
-            const float v_7 = u_0_2 * d_2;
-            const float v_8 = u_0_2 * v_7;
-            const float v_9 = v_8 + v_4;
-            const float v_10 = v_8 + v_5;
-            const float per_a_2 = 1.0f / ((v_10 >= 1.0e-20f) ? v_10 : 1.0f);
-            const float loss_3 = -(u_0_3 * per_a_2);
-            const float v_11 = u_0_3 + (v_9 * loss_3);
-            const float new_d_2 = d_2 * (v_5 * per_a_2);
-            const float v_12 = new_d_2 * v_6;
-            const float u_2_3 = before->factors[24];
-            const float v_13 = u_2_3 + (v_7 * loss_3);
-            const float r_1 = params->variance_pose[1];
-            const float v_14 = r_1 + new_d_2;
-            const float per_a_2_2 = 1.0f / ((v_14 >= 1.0e-20f) ? v_14 : 1.0f);
-            const float loss_3_2 = -(v_13 * per_a_2_2);
-            after->factors[3] = v_11 + (v_12 * loss_3_2);
-            const float u_0_4 = before->factors[4];
-            const float d_3 = before->factors[33];
-            const float v_15 = u_0_3 * d_3;
-            const float v_16 = u_0_3 * v_15;
-            const float v_17 = v_16 + v_9;
-            const float v_18 = v_16 + v_10;
-            const float per_a_3 = 1.0f / ((v_18 >= 1.0e-20f) ? v_18 : 1.0f);
-            const float loss_4 = -(u_0_4 * per_a_3);
-            const float v_19 = u_0_4 + (v_17 * loss_4);
-            const float new_d_3 = d_3 * (v_10 * per_a_3);
-            const float v_20 = new_d_3 * v_13;
-            const float v_21 = v_12 + (v_11 * v_20);
-            const float u_2_4 = before->factors[25];
-            const float v_22 = v_7 + (u_2_3 * v_15);
-            const float v_23 = u_2_4 + (v_22 * loss_4);
-            const float v_24 = v_13 * v_20;
-            const float v_25 = v_14 + v_24;
-            const float per_a_3_2 = 1.0f / ((v_25 >= 1.0e-20f) ? v_25 : 1.0f);
-            const float loss_4_2 = -(v_23 * per_a_3_2);
-            const float v_26 = v_19 + (v_21 * loss_4_2);
-            after->factors[4] = v_26;
-            const float u_0_5 = before->factors[5];
-            const float d_4 = before->factors[42];
-            const float v_27 = u_0_4 * d_4;
-            const float v_28 = u_0_4 * v_27;
-            const float v_29 = v_28 + v_17;
-            const float v_30 = v_28 + v_18;
-            const float per_a_4 = 1.0f / ((v_30 >= 1.0e-20f) ? v_30 : 1.0f);
-            const float loss_5 = -(u_0_5 * per_a_4);
-            const float v_31 = u_0_5 + (v_29 * loss_5);
-            const float new_d_4 = d_4 * (v_18 * per_a_4);
-            const float v_32 = new_d_4 * v_23;
-            const float v_33 = v_21 + (v_19 * v_32);
-            const float u_2_5 = before->factors[26];
-            const float v_34 = v_22 + (u_2_4 * v_27);
-            const float v_35 = u_2_5 + (v_34 * loss_5);
-            const float v_36 = v_23 * v_32;
-            const float v_37 = v_25 + v_36;
-            const float per_a_4_2 = 1.0f / ((v_37 >= 1.0e-20f) ? v_37 : 1.0f);
-            const float loss_5_2 = -(v_35 * per_a_4_2);
-            const float v_38 = v_31 + (v_33 * loss_5_2);
-            const float new_d_4_2 = new_d_4 * (v_25 * per_a_4_2);
-            const float v_39 = new_d_4_2 * v_26;
-            const float u_4_5 = before->factors[43];
-            const float v_40 = u_4_5 + (v_27 * loss_5);
-            const float v_41 = v_40 + (v_32 * loss_5_2);
-            const float r_2 = params->variance_pose[2];
-            const float v_42 = r_2 + new_d_4_2;
-            const float per_a_4_3 = 1.0f / ((v_42 >= 1.0e-20f) ? v_42 : 1.0f);
-            const float loss_5_3 = -(v_41 * per_a_4_3);
-            after->factors[5] = v_38 + (v_39 * loss_5_3);
-            const float u_0_6 = before->factors[6];
-            const float d_5 = before->factors[50];
-            const float v_43 = u_0_5 * d_5;
-            const float v_44 = u_0_5 * v_43;
-            const float v_45 = v_44 + v_29;
-            const float v_46 = v_44 + v_30;
-            const float per_a_5 = 1.0f / ((v_46 >= 1.0e-20f) ? v_46 : 1.0f);
-            const float loss_6 = -(u_0_6 * per_a_5);
-            const float v_47 = u_0_6 + (v_45 * loss_6);
-            const float new_d_5 = d_5 * (v_30 * per_a_5);
-            const float v_48 = new_d_5 * v_35;
-            const float v_49 = v_33 + (v_31 * v_48);
-            const float u_2_6 = before->factors[27];
-            const float v_50 = v_34 + (u_2_5 * v_43);
-            const float v_51 = u_2_6 + (v_50 * loss_6);
-            const float v_52 = v_35 * v_48;
-            const float v_53 = v_37 + v_52;
-            const float per_a_5_2 = 1.0f / ((v_53 >= 1.0e-20f) ? v_53 : 1.0f);
-            const float loss_6_2 = -(v_51 * per_a_5_2);
-            const float v_54 = v_47 + (v_49 * loss_6_2);
-            const float new_d_5_2 = new_d_5 * (v_37 * per_a_5_2);
-            const float v_55 = new_d_5_2 * v_41;
-            const float v_56 = v_39 + (v_38 * v_55);
-            const float u_4_6 = before->factors[44];
-            const float v_57 = v_27 + (u_4_5 * v_43);
-            const float v_58 = u_4_6 + (v_57 * loss_6);
-            const float v_59 = v_32 + (v_40 * v_48);
-            const float v_60 = v_58 + (v_59 * loss_6_2);
-            const float v_61 = v_41 * v_55;
-            const float v_62 = v_42 + v_61;
-            const float per_a_5_3 = 1.0f / ((v_62 >= 1.0e-20f) ? v_62 : 1.0f);
-            const float loss_6_3 = -(v_60 * per_a_5_3);
-            const float v_63 = v_54 + (v_56 * loss_6_3);
-            after->factors[6] = v_63;
-            const float u_0_7 = before->factors[7];
-            const float d_6 = before->factors[57];
-            const float v_64 = u_0_6 * d_6;
-            const float v_65 = u_0_6 * v_64;
-            const float v_66 = v_65 + v_45;
-            const float v_67 = v_65 + v_46;
-            const float per_a_6 = 1.0f / ((v_67 >= 1.0e-20f) ? v_67 : 1.0f);
-            const float loss_7 = -(u_0_7 * per_a_6);
-            const float v_68 = u_0_7 + (v_66 * loss_7);
-            const float new_d_6 = d_6 * (v_46 * per_a_6);
-            const float v_69 = new_d_6 * v_51;
-            const float v_70 = v_49 + (v_47 * v_69);
-            const float u_2_7 = before->factors[28];
-            const float v_71 = v_50 + (u_2_6 * v_64);
-            const float v_72 = u_2_7 + (v_71 * loss_7);
-            const float v_73 = v_51 * v_69;
-            const float v_74 = v_53 + v_73;
-            const float per_a_6_2 = 1.0f / ((v_74 >= 1.0e-20f) ? v_74 : 1.0f);
-            const float loss_7_2 = -(v_72 * per_a_6_2);
-            const float v_75 = v_68 + (v_70 * loss_7_2);
-            const float new_d_6_2 = new_d_6 * (v_53 * per_a_6_2);
-            const float v_76 = new_d_6_2 * v_60;
-            const float v_77 = v_56 + (v_54 * v_76);
-            const float u_4_7 = before->factors[45];
-            const float v_78 = v_57 + (u_4_6 * v_64);
-            const float v_79 = u_4_7 + (v_78 * loss_7);
-            const float v_80 = v_59 + (v_58 * v_69);
-            const float v_81 = v_79 + (v_80 * loss_7_2);
-            const float v_82 = v_60 * v_76;
-            const float v_83 = v_62 + v_82;
-            const float per_a_6_3 = 1.0f / ((v_83 >= 1.0e-20f) ? v_83 : 1.0f);
-            const float loss_7_3 = -(v_81 * per_a_6_3);
-            const float v_84 = v_75 + (v_77 * loss_7_3);
-            const float new_d_6_3 = new_d_6_2 * (v_62 * per_a_6_3);
-            const float v_85 = new_d_6_3 * v_63;
-            const float u_6_7 = before->factors[58];
-            const float v_86 = u_6_7 + (v_64 * loss_7);
-            const float v_87 = v_86 + (v_69 * loss_7_2);
-            const float v_88 = v_87 + (v_76 * loss_7_3);
-            const float r_3 = params->variance_pose[3];
-            const float v_89 = r_3 + new_d_6_3;
-            const float per_a_6_4 = 1.0f / ((v_89 >= 1.0e-20f) ? v_89 : 1.0f);
-            const float loss_7_4 = -(v_88 * per_a_6_4);
-            after->factors[7] = v_84 + (v_85 * loss_7_4);
-            const float u_0_8 = before->factors[8];
-            const float d_7 = before->factors[63];
-            const float v_90 = u_0_7 * d_7;
-            const float v_91 = u_0_7 * v_90;
-            const float v_92 = v_91 + v_66;
-            const float v_93 = v_91 + v_67;
-            const float per_a_7 = 1.0f / ((v_93 >= 1.0e-20f) ? v_93 : 1.0f);
-            const float loss_8 = -(u_0_8 * per_a_7);
-            const float v_94 = u_0_8 + (v_92 * loss_8);
-            const float new_d_7 = d_7 * (v_67 * per_a_7);
-            const float v_95 = new_d_7 * v_72;
-            const float v_96 = v_70 + (v_68 * v_95);
-            const float u_2_8 = before->factors[29];
-            const float v_97 = v_71 + (u_2_7 * v_90);
-            const float v_98 = u_2_8 + (v_97 * loss_8);
-            const float v_99 = v_72 * v_95;
-            const float v_100 = v_74 + v_99;
-            const float per_a_7_2 = 1.0f / ((v_100 >= 1.0e-20f) ? v_100 : 1.0f);
-            const float loss_8_2 = -(v_98 * per_a_7_2);
-            const float v_101 = v_94 + (v_96 * loss_8_2);
-            const float new_d_7_2 = new_d_7 * (v_74 * per_a_7_2);
-            const float v_102 = new_d_7_2 * v_81;
-            const float v_103 = v_77 + (v_75 * v_102);
-            const float u_4_8 = before->factors[46];
-            const float v_104 = v_78 + (u_4_7 * v_90);
-            const float v_105 = u_4_8 + (v_104 * loss_8);
-            const float v_106 = v_80 + (v_79 * v_95);
-            const float v_107 = v_105 + (v_106 * loss_8_2);
-            const float v_108 = v_81 * v_102;
-            const float v_109 = v_83 + v_108;
-            const float per_a_7_3 = 1.0f / ((v_109 >= 1.0e-20f) ? v_109 : 1.0f);
-            const float loss_8_3 = -(v_107 * per_a_7_3);
-            const float v_110 = v_101 + (v_103 * loss_8_3);
-            const float new_d_7_3 = new_d_7_2 * (v_83 * per_a_7_3);
-            const float v_111 = new_d_7_3 * v_88;
-            const float v_112 = v_85 + (v_84 * v_111);
-            const float u_6_8 = before->factors[59];
-            const float v_113 = v_64 + (u_6_7 * v_90);
-            const float v_114 = u_6_8 + (v_113 * loss_8);
-            const float v_115 = v_69 + (v_86 * v_95);
-            const float v_116 = v_114 + (v_115 * loss_8_2);
-            const float v_117 = v_76 + (v_87 * v_102);
-            const float v_118 = v_116 + (v_117 * loss_8_3);
-            const float v_119 = v_88 * v_111;
-            const float v_120 = v_89 + v_119;
-            const float per_a_7_4 = 1.0f / ((v_120 >= 1.0e-20f) ? v_120 : 1.0f);
-            const float loss_8_4 = -(v_118 * per_a_7_4);
-            after->factors[8] = v_110 + (v_112 * loss_8_4);
-            const float u_0_9 = before->factors[9];
-            const float d_8 = before->factors[68];
-            const float v_121 = u_0_8 * d_8;
-            const float v_122 = u_0_8 * v_121;
-            const float v_123 = v_122 + v_92;
-            const float v_124 = v_122 + v_93;
-            const float per_a_8 = 1.0f / ((v_124 >= 1.0e-20f) ? v_124 : 1.0f);
-            const float loss_9 = -(u_0_9 * per_a_8);
-            const float v_125 = u_0_9 + (v_123 * loss_9);
-            const float new_d_8 = d_8 * (v_93 * per_a_8);
-            const float v_126 = new_d_8 * v_98;
-            const float v_127 = v_96 + (v_94 * v_126);
-            const float u_2_9 = before->factors[30];
-            const float v_128 = v_97 + (u_2_8 * v_121);
-            const float v_129 = u_2_9 + (v_128 * loss_9);
-            const float v_130 = v_98 * v_126;
-            const float v_131 = v_100 + v_130;
-            const float per_a_8_2 = 1.0f / ((v_131 >= 1.0e-20f) ? v_131 : 1.0f);
-            const float loss_9_2 = -(v_129 * per_a_8_2);
-            const float v_132 = v_125 + (v_127 * loss_9_2);
-            const float new_d_8_2 = new_d_8 * (v_100 * per_a_8_2);
-            const float v_133 = new_d_8_2 * v_107;
-            const float v_134 = v_103 + (v_101 * v_133);
-            const float u_4_9 = before->factors[47];
-            const float v_135 = v_104 + (u_4_8 * v_121);
-            const float v_136 = u_4_9 + (v_135 * loss_9);
-            const float v_137 = v_106 + (v_105 * v_126);
-            const float v_138 = v_136 + (v_137 * loss_9_2);
-            const float v_139 = v_107 * v_133;
-            const float v_140 = v_109 + v_139;
-            const float per_a_8_3 = 1.0f / ((v_140 >= 1.0e-20f) ? v_140 : 1.0f);
-            const float loss_9_3 = -(v_138 * per_a_8_3);
-            const float v_141 = v_132 + (v_134 * loss_9_3);
-            const float new_d_8_3 = new_d_8_2 * (v_109 * per_a_8_3);
-            const float v_142 = new_d_8_3 * v_118;
-            const float v_143 = v_112 + (v_110 * v_142);
-            const float u_6_9 = before->factors[60];
-            const float v_144 = v_113 + (u_6_8 * v_121);
-            const float v_145 = u_6_9 + (v_144 * loss_9);
-            const float v_146 = v_115 + (v_114 * v_126);
-            const float v_147 = v_145 + (v_146 * loss_9_2);
-            const float v_148 = v_117 + (v_116 * v_133);
-            const float v_149 = v_147 + (v_148 * loss_9_3);
-            const float v_150 = v_118 * v_142;
-            const float v_151 = v_120 + v_150;
-            const float per_a_8_4 = 1.0f / ((v_151 >= 1.0e-20f) ? v_151 : 1.0f);
-            const float loss_9_4 = -(v_149 * per_a_8_4);
-            after->factors[9] = v_141 + (v_143 * loss_9_4);
-            const float u_0_10 = before->factors[10];
-            const float d_9 = before->factors[72];
-            const float v_152 = u_0_9 * d_9;
-            const float v_153 = u_0_9 * v_152;
-            const float v_154 = v_153 + v_123;
-            const float v_155 = v_153 + v_124;
-            const float per_a_9 = 1.0f / ((v_155 >= 1.0e-20f) ? v_155 : 1.0f);
-            const float loss_10 = -(u_0_10 * per_a_9);
-            const float v_156 = u_0_10 + (v_154 * loss_10);
-            const float new_d_9 = d_9 * (v_124 * per_a_9);
-            const float v_157 = new_d_9 * v_129;
-            const float v_158 = v_127 + (v_125 * v_157);
-            const float u_2_10 = before->factors[31];
-            const float v_159 = v_128 + (u_2_9 * v_152);
-            const float v_160 = u_2_10 + (v_159 * loss_10);
-            const float v_161 = v_129 * v_157;
-            const float v_162 = v_131 + v_161;
-            const float per_a_9_2 = 1.0f / ((v_162 >= 1.0e-20f) ? v_162 : 1.0f);
-            const float loss_10_2 = -(v_160 * per_a_9_2);
-            const float v_163 = v_156 + (v_158 * loss_10_2);
-            const float new_d_9_2 = new_d_9 * (v_131 * per_a_9_2);
-            const float v_164 = new_d_9_2 * v_138;
-            const float v_165 = v_134 + (v_132 * v_164);
-            const float u_4_10 = before->factors[48];
-            const float v_166 = v_135 + (u_4_9 * v_152);
-            const float v_167 = u_4_10 + (v_166 * loss_10);
-            const float v_168 = v_137 + (v_136 * v_157);
-            const float v_169 = v_167 + (v_168 * loss_10_2);
-            const float v_170 = v_138 * v_164;
-            const float v_171 = v_140 + v_170;
-            const float per_a_9_3 = 1.0f / ((v_171 >= 1.0e-20f) ? v_171 : 1.0f);
-            const float loss_10_3 = -(v_169 * per_a_9_3);
-            const float v_172 = v_163 + (v_165 * loss_10_3);
-            const float new_d_9_3 = new_d_9_2 * (v_140 * per_a_9_3);
-            const float v_173 = new_d_9_3 * v_149;
-            const float v_174 = v_143 + (v_141 * v_173);
-            const float u_6_10 = before->factors[61];
-            const float v_175 = v_144 + (u_6_9 * v_152);
-            const float v_176 = u_6_10 + (v_175 * loss_10);
-            const float v_177 = v_146 + (v_145 * v_157);
-            const float v_178 = v_176 + (v_177 * loss_10_2);
-            const float v_179 = v_148 + (v_147 * v_164);
-            const float v_180 = v_178 + (v_179 * loss_10_3);
-            const float v_181 = v_149 * v_173;
-            const float v_182 = v_151 + v_181;
-            const float per_a_9_4 = 1.0f / ((v_182 >= 1.0e-20f) ? v_182 : 1.0f);
-            const float loss_10_4 = -(v_180 * per_a_9_4);
-            after->factors[10] = v_172 + (v_174 * loss_10_4);
-            const float u_0_11 = before->factors[11];
-            const float d_10 = before->factors[75];
-            const float v_183 = u_0_10 * d_10;
-            const float v_184 = u_0_10 * v_183;
-            const float v_185 = v_184 + v_154;
-            const float v_186 = v_184 + v_155;
-            const float per_a_10 = 1.0f / ((v_186 >= 1.0e-20f) ? v_186 : 1.0f);
-            const float loss_11 = -(u_0_11 * per_a_10);
-            const float v_187 = u_0_11 + (v_185 * loss_11);
-            const float new_d_10 = d_10 * (v_155 * per_a_10);
-            const float v_188 = new_d_10 * v_160;
-            const float v_189 = v_158 + (v_156 * v_188);
-            const float u_2_11 = before->factors[32];
-            const float v_190 = v_159 + (u_2_10 * v_183);
-            const float v_191 = u_2_11 + (v_190 * loss_11);
-            const float v_192 = v_160 * v_188;
-            const float v_193 = v_162 + v_192;
-            const float per_a_10_2 = 1.0f / ((v_193 >= 1.0e-20f) ? v_193 : 1.0f);
-            const float loss_11_2 = -(v_191 * per_a_10_2);
-            const float v_194 = v_187 + (v_189 * loss_11_2);
-            const float new_d_10_2 = new_d_10 * (v_162 * per_a_10_2);
-            const float v_195 = new_d_10_2 * v_169;
-            const float v_196 = v_165 + (v_163 * v_195);
-            const float u_4_11 = before->factors[49];
-            const float v_197 = v_166 + (u_4_10 * v_183);
-            const float v_198 = u_4_11 + (v_197 * loss_11);
-            const float v_199 = v_168 + (v_167 * v_188);
-            const float v_200 = v_198 + (v_199 * loss_11_2);
-            const float v_201 = v_169 * v_195;
-            const float v_202 = v_171 + v_201;
-            const float per_a_10_3 = 1.0f / ((v_202 >= 1.0e-20f) ? v_202 : 1.0f);
-            const float loss_11_3 = -(v_200 * per_a_10_3);
-            const float v_203 = v_194 + (v_196 * loss_11_3);
-            const float new_d_10_3 = new_d_10_2 * (v_171 * per_a_10_3);
-            const float v_204 = new_d_10_3 * v_180;
-            const float v_205 = v_174 + (v_172 * v_204);
-            const float u_6_11 = before->factors[62];
-            const float v_206 = v_175 + (u_6_10 * v_183);
-            const float v_207 = u_6_11 + (v_206 * loss_11);
-            const float v_208 = v_177 + (v_176 * v_188);
-            const float v_209 = v_207 + (v_208 * loss_11_2);
-            const float v_210 = v_179 + (v_178 * v_195);
-            const float v_211 = v_209 + (v_210 * loss_11_3);
-            const float v_212 = v_180 * v_204;
-            const float v_213 = v_182 + v_212;
-            const float per_a_10_4 = 1.0f / ((v_213 >= 1.0e-20f) ? v_213 : 1.0f);
-            const float loss_11_4 = -(v_211 * per_a_10_4);
-            after->factors[11] = v_203 + (v_205 * loss_11_4);
-            after->factors[12] = d_1 * (v * per_a_1);
-            const float u_1_2 = before->factors[13];
-            const float v_214 = u_1_2 + (v_2 * loss_2);
-            after->factors[13] = v_214;
-            const float u_1_3 = before->factors[14];
-            const float v_215 = v_2 + (u_1_2 * v_7);
-            const float v_216 = u_1_3 + (v_215 * loss_3);
-            const float v_217 = new_d_2 * v_214;
-            after->factors[14] = v_216 + (v_217 * loss_3_2);
-            const float u_1_4 = before->factors[15];
-            const float v_218 = v_215 + (u_1_3 * v_15);
-            const float v_219 = u_1_4 + (v_218 * loss_4);
-            const float v_220 = v_217 + (v_216 * v_20);
-            const float v_221 = v_219 + (v_220 * loss_4_2);
-            after->factors[15] = v_221;
-            const float u_1_5 = before->factors[16];
-            const float v_222 = v_218 + (u_1_4 * v_27);
-            const float v_223 = u_1_5 + (v_222 * loss_5);
-            const float v_224 = v_220 + (v_219 * v_32);
-            const float v_225 = v_223 + (v_224 * loss_5_2);
-            const float v_226 = new_d_4_2 * v_221;
-            after->factors[16] = v_225 + (v_226 * loss_5_3);
-            const float u_1_6 = before->factors[17];
-            const float v_227 = v_222 + (u_1_5 * v_43);
-            const float v_228 = u_1_6 + (v_227 * loss_6);
-            const float v_229 = v_224 + (v_223 * v_48);
-            const float v_230 = v_228 + (v_229 * loss_6_2);
-            const float v_231 = v_226 + (v_225 * v_55);
-            const float v_232 = v_230 + (v_231 * loss_6_3);
-            after->factors[17] = v_232;
-            const float u_1_7 = before->factors[18];
-            const float v_233 = v_227 + (u_1_6 * v_64);
-            const float v_234 = u_1_7 + (v_233 * loss_7);
-            const float v_235 = v_229 + (v_228 * v_69);
-            const float v_236 = v_234 + (v_235 * loss_7_2);
-            const float v_237 = v_231 + (v_230 * v_76);
-            const float v_238 = v_236 + (v_237 * loss_7_3);
-            const float v_239 = new_d_6_3 * v_232;
-            after->factors[18] = v_238 + (v_239 * loss_7_4);
-            const float u_1_8 = before->factors[19];
-            const float v_240 = v_233 + (u_1_7 * v_90);
-            const float v_241 = u_1_8 + (v_240 * loss_8);
-            const float v_242 = v_235 + (v_234 * v_95);
-            const float v_243 = v_241 + (v_242 * loss_8_2);
-            const float v_244 = v_237 + (v_236 * v_102);
-            const float v_245 = v_243 + (v_244 * loss_8_3);
-            const float v_246 = v_239 + (v_238 * v_111);
-            after->factors[19] = v_245 + (v_246 * loss_8_4);
-            const float u_1_9 = before->factors[20];
-            const float v_247 = v_240 + (u_1_8 * v_121);
-            const float v_248 = u_1_9 + (v_247 * loss_9);
-            const float v_249 = v_242 + (v_241 * v_126);
-            const float v_250 = v_248 + (v_249 * loss_9_2);
-            const float v_251 = v_244 + (v_243 * v_133);
-            const float v_252 = v_250 + (v_251 * loss_9_3);
-            const float v_253 = v_246 + (v_245 * v_142);
-            after->factors[20] = v_252 + (v_253 * loss_9_4);
-            const float u_1_10 = before->factors[21];
-            const float v_254 = v_247 + (u_1_9 * v_152);
-            const float v_255 = u_1_10 + (v_254 * loss_10);
-            const float v_256 = v_249 + (v_248 * v_157);
-            const float v_257 = v_255 + (v_256 * loss_10_2);
-            const float v_258 = v_251 + (v_250 * v_164);
-            const float v_259 = v_257 + (v_258 * loss_10_3);
-            const float v_260 = v_253 + (v_252 * v_173);
-            after->factors[21] = v_259 + (v_260 * loss_10_4);
-            const float u_1_11 = before->factors[22];
-            const float v_261 = v_254 + (u_1_10 * v_183);
-            const float v_262 = u_1_11 + (v_261 * loss_11);
-            const float v_263 = v_256 + (v_255 * v_188);
-            const float v_264 = v_262 + (v_263 * loss_11_2);
-            const float v_265 = v_258 + (v_257 * v_195);
-            const float v_266 = v_264 + (v_265 * loss_11_3);
-            const float v_267 = v_260 + (v_259 * v_204);
-            after->factors[22] = v_266 + (v_267 * loss_11_4);
-            after->factors[23] = new_d_2 * (r_1 * per_a_2_2);
-            after->factors[24] = v_13 + (new_d_2 * loss_3_2);
-            const float v_268 = new_d_2 + v_24;
-            const float v_269 = v_23 + (v_268 * loss_4_2);
-            after->factors[25] = v_269;
-            const float v_270 = v_268 + v_36;
-            const float v_271 = v_35 + (v_270 * loss_5_2);
-            const float v_272 = new_d_4_2 * v_269;
-            after->factors[26] = v_271 + (v_272 * loss_5_3);
-            const float v_273 = v_270 + v_52;
-            const float v_274 = v_51 + (v_273 * loss_6_2);
-            const float v_275 = v_272 + (v_271 * v_55);
-            const float v_276 = v_274 + (v_275 * loss_6_3);
-            after->factors[27] = v_276;
-            const float v_277 = v_273 + v_73;
-            const float v_278 = v_72 + (v_277 * loss_7_2);
-            const float v_279 = v_275 + (v_274 * v_76);
-            const float v_280 = v_278 + (v_279 * loss_7_3);
-            const float v_281 = new_d_6_3 * v_276;
-            after->factors[28] = v_280 + (v_281 * loss_7_4);
-            const float v_282 = v_277 + v_99;
-            const float v_283 = v_98 + (v_282 * loss_8_2);
-            const float v_284 = v_279 + (v_278 * v_102);
-            const float v_285 = v_283 + (v_284 * loss_8_3);
-            const float v_286 = v_281 + (v_280 * v_111);
-            after->factors[29] = v_285 + (v_286 * loss_8_4);
-            const float v_287 = v_282 + v_130;
-            const float v_288 = v_129 + (v_287 * loss_9_2);
-            const float v_289 = v_284 + (v_283 * v_133);
-            const float v_290 = v_288 + (v_289 * loss_9_3);
-            const float v_291 = v_286 + (v_285 * v_142);
-            after->factors[30] = v_290 + (v_291 * loss_9_4);
-            const float v_292 = v_287 + v_161;
-            const float v_293 = v_160 + (v_292 * loss_10_2);
-            const float v_294 = v_289 + (v_288 * v_164);
-            const float v_295 = v_293 + (v_294 * loss_10_3);
-            const float v_296 = v_291 + (v_290 * v_173);
-            after->factors[31] = v_295 + (v_296 * loss_10_4);
-            const float v_297 = v_292 + v_192;
-            const float v_298 = v_191 + (v_297 * loss_11_2);
-            const float v_299 = v_294 + (v_293 * v_195);
-            const float v_300 = v_298 + (v_299 * loss_11_3);
-            const float v_301 = v_296 + (v_295 * v_204);
-            after->factors[32] = v_300 + (v_301 * loss_11_4);
-            after->factors[33] = new_d_3 * (v_14 * per_a_3_2);
-            const float u_3_4 = before->factors[34];
-            const float v_302 = u_3_4 + (v_15 * loss_4);
-            const float v_303 = v_302 + (v_20 * loss_4_2);
-            after->factors[34] = v_303;
-            const float u_3_5 = before->factors[35];
-            const float v_304 = v_15 + (u_3_4 * v_27);
-            const float v_305 = u_3_5 + (v_304 * loss_5);
-            const float v_306 = v_20 + (v_302 * v_32);
-            const float v_307 = v_305 + (v_306 * loss_5_2);
-            const float v_308 = new_d_4_2 * v_303;
-            after->factors[35] = v_307 + (v_308 * loss_5_3);
-            const float u_3_6 = before->factors[36];
-            const float v_309 = v_304 + (u_3_5 * v_43);
-            const float v_310 = u_3_6 + (v_309 * loss_6);
-            const float v_311 = v_306 + (v_305 * v_48);
-            const float v_312 = v_310 + (v_311 * loss_6_2);
-            const float v_313 = v_308 + (v_307 * v_55);
-            const float v_314 = v_312 + (v_313 * loss_6_3);
-            after->factors[36] = v_314;
-            const float u_3_7 = before->factors[37];
-            const float v_315 = v_309 + (u_3_6 * v_64);
-            const float v_316 = u_3_7 + (v_315 * loss_7);
-            const float v_317 = v_311 + (v_310 * v_69);
-            const float v_318 = v_316 + (v_317 * loss_7_2);
-            const float v_319 = v_313 + (v_312 * v_76);
-            const float v_320 = v_318 + (v_319 * loss_7_3);
-            const float v_321 = new_d_6_3 * v_314;
-            after->factors[37] = v_320 + (v_321 * loss_7_4);
-            const float u_3_8 = before->factors[38];
-            const float v_322 = v_315 + (u_3_7 * v_90);
-            const float v_323 = u_3_8 + (v_322 * loss_8);
-            const float v_324 = v_317 + (v_316 * v_95);
-            const float v_325 = v_323 + (v_324 * loss_8_2);
-            const float v_326 = v_319 + (v_318 * v_102);
-            const float v_327 = v_325 + (v_326 * loss_8_3);
-            const float v_328 = v_321 + (v_320 * v_111);
-            after->factors[38] = v_327 + (v_328 * loss_8_4);
-            const float u_3_9 = before->factors[39];
-            const float v_329 = v_322 + (u_3_8 * v_121);
-            const float v_330 = u_3_9 + (v_329 * loss_9);
-            const float v_331 = v_324 + (v_323 * v_126);
-            const float v_332 = v_330 + (v_331 * loss_9_2);
-            const float v_333 = v_326 + (v_325 * v_133);
-            const float v_334 = v_332 + (v_333 * loss_9_3);
-            const float v_335 = v_328 + (v_327 * v_142);
-            after->factors[39] = v_334 + (v_335 * loss_9_4);
-            const float u_3_10 = before->factors[40];
-            const float v_336 = v_329 + (u_3_9 * v_152);
-            const float v_337 = u_3_10 + (v_336 * loss_10);
-            const float v_338 = v_331 + (v_330 * v_157);
-            const float v_339 = v_337 + (v_338 * loss_10_2);
-            const float v_340 = v_333 + (v_332 * v_164);
-            const float v_341 = v_339 + (v_340 * loss_10_3);
-            const float v_342 = v_335 + (v_334 * v_173);
-            after->factors[40] = v_341 + (v_342 * loss_10_4);
-            const float u_3_11 = before->factors[41];
-            const float v_343 = v_336 + (u_3_10 * v_183);
-            const float v_344 = u_3_11 + (v_343 * loss_11);
-            const float v_345 = v_338 + (v_337 * v_188);
-            const float v_346 = v_344 + (v_345 * loss_11_2);
-            const float v_347 = v_340 + (v_339 * v_195);
-            const float v_348 = v_346 + (v_347 * loss_11_3);
-            const float v_349 = v_342 + (v_341 * v_204);
-            after->factors[41] = v_348 + (v_349 * loss_11_4);
-            after->factors[42] = new_d_4_2 * (r_2 * per_a_4_3);
-            after->factors[43] = v_41 + (new_d_4_2 * loss_5_3);
-            const float v_350 = new_d_4_2 + v_61;
-            const float v_351 = v_60 + (v_350 * loss_6_3);
-            after->factors[44] = v_351;
-            const float v_352 = v_350 + v_82;
-            const float v_353 = v_81 + (v_352 * loss_7_3);
-            const float v_354 = new_d_6_3 * v_351;
-            after->factors[45] = v_353 + (v_354 * loss_7_4);
-            const float v_355 = v_352 + v_108;
-            const float v_356 = v_107 + (v_355 * loss_8_3);
-            const float v_357 = v_354 + (v_353 * v_111);
-            after->factors[46] = v_356 + (v_357 * loss_8_4);
-            const float v_358 = v_355 + v_139;
-            const float v_359 = v_138 + (v_358 * loss_9_3);
-            const float v_360 = v_357 + (v_356 * v_142);
-            after->factors[47] = v_359 + (v_360 * loss_9_4);
-            const float v_361 = v_358 + v_170;
-            const float v_362 = v_169 + (v_361 * loss_10_3);
-            const float v_363 = v_360 + (v_359 * v_173);
-            after->factors[48] = v_362 + (v_363 * loss_10_4);
-            const float v_364 = v_361 + v_201;
-            const float v_365 = v_200 + (v_364 * loss_11_3);
-            const float v_366 = v_363 + (v_362 * v_204);
-            after->factors[49] = v_365 + (v_366 * loss_11_4);
-            after->factors[50] = new_d_5_2 * (v_42 * per_a_5_3);
-            const float u_5_6 = before->factors[51];
-            const float v_367 = u_5_6 + (v_43 * loss_6);
-            const float v_368 = v_367 + (v_48 * loss_6_2);
-            const float v_369 = v_368 + (v_55 * loss_6_3);
-            after->factors[51] = v_369;
-            const float u_5_7 = before->factors[52];
-            const float v_370 = v_43 + (u_5_6 * v_64);
-            const float v_371 = u_5_7 + (v_370 * loss_7);
-            const float v_372 = v_48 + (v_367 * v_69);
-            const float v_373 = v_371 + (v_372 * loss_7_2);
-            const float v_374 = v_55 + (v_368 * v_76);
-            const float v_375 = v_373 + (v_374 * loss_7_3);
-            const float v_376 = new_d_6_3 * v_369;
-            after->factors[52] = v_375 + (v_376 * loss_7_4);
-            const float u_5_8 = before->factors[53];
-            const float v_377 = v_370 + (u_5_7 * v_90);
-            const float v_378 = u_5_8 + (v_377 * loss_8);
-            const float v_379 = v_372 + (v_371 * v_95);
-            const float v_380 = v_378 + (v_379 * loss_8_2);
-            const float v_381 = v_374 + (v_373 * v_102);
-            const float v_382 = v_380 + (v_381 * loss_8_3);
-            const float v_383 = v_376 + (v_375 * v_111);
-            after->factors[53] = v_382 + (v_383 * loss_8_4);
-            const float u_5_9 = before->factors[54];
-            const float v_384 = v_377 + (u_5_8 * v_121);
-            const float v_385 = u_5_9 + (v_384 * loss_9);
-            const float v_386 = v_379 + (v_378 * v_126);
-            const float v_387 = v_385 + (v_386 * loss_9_2);
-            const float v_388 = v_381 + (v_380 * v_133);
-            const float v_389 = v_387 + (v_388 * loss_9_3);
-            const float v_390 = v_383 + (v_382 * v_142);
-            after->factors[54] = v_389 + (v_390 * loss_9_4);
-            const float u_5_10 = before->factors[55];
-            const float v_391 = v_384 + (u_5_9 * v_152);
-            const float v_392 = u_5_10 + (v_391 * loss_10);
-            const float v_393 = v_386 + (v_385 * v_157);
-            const float v_394 = v_392 + (v_393 * loss_10_2);
-            const float v_395 = v_388 + (v_387 * v_164);
-            const float v_396 = v_394 + (v_395 * loss_10_3);
-            const float v_397 = v_390 + (v_389 * v_173);
-            after->factors[55] = v_396 + (v_397 * loss_10_4);
-            const float u_5_11 = before->factors[56];
-            const float v_398 = v_391 + (u_5_10 * v_183);
-            const float v_399 = u_5_11 + (v_398 * loss_11);
-            const float v_400 = v_393 + (v_392 * v_188);
-            const float v_401 = v_399 + (v_400 * loss_11_2);
-            const float v_402 = v_395 + (v_394 * v_195);
-            const float v_403 = v_401 + (v_402 * loss_11_3);
-            const float v_404 = v_397 + (v_396 * v_204);
-            after->factors[56] = v_403 + (v_404 * loss_11_4);
-            after->factors[57] = new_d_6_3 * (r_3 * per_a_6_4);
-            after->factors[58] = v_88 + (new_d_6_3 * loss_7_4);
-            const float v_405 = new_d_6_3 + v_119;
-            after->factors[59] = v_118 + (v_405 * loss_8_4);
-            const float v_406 = v_405 + v_150;
-            after->factors[60] = v_149 + (v_406 * loss_9_4);
-            const float v_407 = v_406 + v_181;
-            after->factors[61] = v_180 + (v_407 * loss_10_4);
-            const float v_408 = v_407 + v_212;
-            after->factors[62] = v_211 + (v_408 * loss_11_4);
-            after->factors[63] = new_d_7_3 * (v_89 * per_a_7_4);
-            const float u_7_8 = before->factors[64];
-            const float v_409 = u_7_8 + (v_90 * loss_8);
-            const float v_410 = v_409 + (v_95 * loss_8_2);
-            const float v_411 = v_410 + (v_102 * loss_8_3);
-            after->factors[64] = v_411 + (v_111 * loss_8_4);
-            const float u_7_9 = before->factors[65];
-            const float v_412 = v_90 + (u_7_8 * v_121);
-            const float v_413 = u_7_9 + (v_412 * loss_9);
-            const float v_414 = v_95 + (v_409 * v_126);
-            const float v_415 = v_413 + (v_414 * loss_9_2);
-            const float v_416 = v_102 + (v_410 * v_133);
-            const float v_417 = v_415 + (v_416 * loss_9_3);
-            const float v_418 = v_111 + (v_411 * v_142);
-            after->factors[65] = v_417 + (v_418 * loss_9_4);
-            const float u_7_10 = before->factors[66];
-            const float v_419 = v_412 + (u_7_9 * v_152);
-            const float v_420 = u_7_10 + (v_419 * loss_10);
-            const float v_421 = v_414 + (v_413 * v_157);
-            const float v_422 = v_420 + (v_421 * loss_10_2);
-            const float v_423 = v_416 + (v_415 * v_164);
-            const float v_424 = v_422 + (v_423 * loss_10_3);
-            const float v_425 = v_418 + (v_417 * v_173);
-            after->factors[66] = v_424 + (v_425 * loss_10_4);
-            const float u_7_11 = before->factors[67];
-            const float v_426 = v_419 + (u_7_10 * v_183);
-            const float v_427 = u_7_11 + (v_426 * loss_11);
-            const float v_428 = v_421 + (v_420 * v_188);
-            const float v_429 = v_427 + (v_428 * loss_11_2);
-            const float v_430 = v_423 + (v_422 * v_195);
-            const float v_431 = v_429 + (v_430 * loss_11_3);
-            const float v_432 = v_425 + (v_424 * v_204);
-            after->factors[67] = v_431 + (v_432 * loss_11_4);
-            after->factors[68] = new_d_8_3 * (v_120 * per_a_8_4);
-            const float u_8_9 = before->factors[69];
-            const float v_433 = u_8_9 + (v_121 * loss_9);
-            const float v_434 = v_433 + (v_126 * loss_9_2);
-            const float v_435 = v_434 + (v_133 * loss_9_3);
-            after->factors[69] = v_435 + (v_142 * loss_9_4);
-            const float u_8_10 = before->factors[70];
-            const float v_436 = v_121 + (u_8_9 * v_152);
-            const float v_437 = u_8_10 + (v_436 * loss_10);
-            const float v_438 = v_126 + (v_433 * v_157);
-            const float v_439 = v_437 + (v_438 * loss_10_2);
-            const float v_440 = v_133 + (v_434 * v_164);
-            const float v_441 = v_439 + (v_440 * loss_10_3);
-            const float v_442 = v_142 + (v_435 * v_173);
-            after->factors[70] = v_441 + (v_442 * loss_10_4);
-            const float u_8_11 = before->factors[71];
-            const float v_443 = v_436 + (u_8_10 * v_183);
-            const float v_444 = u_8_11 + (v_443 * loss_11);
-            const float v_445 = v_438 + (v_437 * v_188);
-            const float v_446 = v_444 + (v_445 * loss_11_2);
-            const float v_447 = v_440 + (v_439 * v_195);
-            const float v_448 = v_446 + (v_447 * loss_11_3);
-            const float v_449 = v_442 + (v_441 * v_204);
-            after->factors[71] = v_448 + (v_449 * loss_11_4);
-            after->factors[72] = new_d_9_3 * (v_151 * per_a_9_4);
-            const float u_9_10 = before->factors[73];
-            const float v_450 = u_9_10 + (v_152 * loss_10);
-            const float v_451 = v_450 + (v_157 * loss_10_2);
-            const float v_452 = v_451 + (v_164 * loss_10_3);
-            after->factors[73] = v_452 + (v_173 * loss_10_4);
-            const float u_9_11 = before->factors[74];
-            const float v_453 = v_152 + (u_9_10 * v_183);
-            const float v_454 = u_9_11 + (v_453 * loss_11);
-            const float v_455 = v_157 + (v_450 * v_188);
-            const float v_456 = v_454 + (v_455 * loss_11_2);
-            const float v_457 = v_164 + (v_451 * v_195);
-            const float v_458 = v_456 + (v_457 * loss_11_3);
-            const float v_459 = v_173 + (v_452 * v_204);
-            after->factors[74] = v_458 + (v_459 * loss_11_4);
-            after->factors[75] = new_d_10_3 * (v_182 * per_a_10_4);
-            const float u_10_11 = before->factors[76];
-            const float v_460 = u_10_11 + (v_183 * loss_11);
-            const float v_461 = v_460 + (v_188 * loss_11_2);
-            const float v_462 = v_461 + (v_195 * loss_11_3);
-            after->factors[76] = v_462 + (v_204 * loss_11_4);
-            const float d_11 = before->factors[77];
-            const float v_463 = u_0_11 * d_11;
-            const float v_464 = u_0_11 * v_463;
-            const float s = v_464 + v_186;
-            const float per_a_11 = 1.0f / ((s >= 1.0e-20f) ? s : 1.0f);
-            const float new_d_11 = d_11 * (v_186 * per_a_11);
-            const float v_465 = new_d_11 * v_191;
-            const float v_466 = v_191 * v_465;
-            const float s_2 = v_193 + v_466;
-            const float per_a_11_2 = 1.0f / ((s_2 >= 1.0e-20f) ? s_2 : 1.0f);
-            const float new_d_11_2 = new_d_11 * (v_193 * per_a_11_2);
-            const float v_467 = new_d_11_2 * v_200;
-            const float v_468 = v_200 * v_467;
-            const float s_3 = v_202 + v_468;
-            const float per_a_11_3 = 1.0f / ((s_3 >= 1.0e-20f) ? s_3 : 1.0f);
-            const float new_d_11_3 = new_d_11_2 * (v_202 * per_a_11_3);
-            const float v_469 = new_d_11_3 * v_211;
-            const float v_470 = v_211 * v_469;
-            const float s_4 = v_213 + v_470;
-            const float per_a_11_4 = 1.0f / ((s_4 >= 1.0e-20f) ? s_4 : 1.0f);
-            after->factors[77] = new_d_11_3 * (v_213 * per_a_11_4);
-            const float weighted_e = residual_0 * per_a_11;
-            const float v_471 = (v_190 + (u_2_11 * v_463)) * weighted_e;
-            const float e = residual_1 - v_471;
-            const float weighted_e_2 = per_a_11_2 * e;
-            const float v_472 = ((v_197 + (u_4_11 * v_463)) * weighted_e) + ((v_199 + (v_198 * v_465)) * weighted_e_2);
-            const float e_2 = residual_2 - v_472;
-            const float weighted_e_3 = per_a_11_3 * e_2;
-            const float v_473 = (((v_464 + v_185) * weighted_e) + ((v_189 + (v_187 * v_465)) * weighted_e_2)) + ((v_196
-                + (v_194 * v_467)) * weighted_e_3);
-            const float v_474 = ((v_206 + (u_6_11 * v_463)) * weighted_e) + ((v_208 + (v_207 * v_465)) * weighted_e_2);
-            const float v_475 = v_474 + ((v_210 + (v_209 * v_467)) * weighted_e_3);
-            const float e_3 = residual_3 - v_475;
-            const float weighted_e_4 = per_a_11_4 * e_3;
-            delta[0] = v_473 + ((v_205 + (v_203 * v_469)) * weighted_e_4);
-            const float v_476 = ((v_261 + (u_1_11 * v_463)) * weighted_e) + ((v_263 + (v_262 * v_465)) * weighted_e_2);
-            delta[1] = (v_476 + ((v_265 + (v_264 * v_467)) * weighted_e_3)) + ((v_267 + (v_266 * v_469)) *
-                weighted_e_4);
-            const float v_477 = (v_471 + ((v_297 + v_466) * weighted_e_2)) + ((v_299 + (v_298 * v_467)) * weighted_e_3);
-            delta[2] = v_477 + ((v_301 + (v_300 * v_469)) * weighted_e_4);
-            const float v_478 = ((v_343 + (u_3_11 * v_463)) * weighted_e) + ((v_345 + (v_344 * v_465)) * weighted_e_2);
-            delta[3] = (v_478 + ((v_347 + (v_346 * v_467)) * weighted_e_3)) + ((v_349 + (v_348 * v_469)) *
-                weighted_e_4);
-            delta[4] = (v_472 + ((v_364 + v_468) * weighted_e_3)) + ((v_366 + (v_365 * v_469)) * weighted_e_4);
-            const float v_479 = ((v_398 + (u_5_11 * v_463)) * weighted_e) + ((v_400 + (v_399 * v_465)) * weighted_e_2);
-            delta[5] = (v_479 + ((v_402 + (v_401 * v_467)) * weighted_e_3)) + ((v_404 + (v_403 * v_469)) *
-                weighted_e_4);
-            delta[6] = v_475 + ((v_408 + v_470) * weighted_e_4);
-            const float v_480 = ((v_426 + (u_7_11 * v_463)) * weighted_e) + ((v_428 + (v_427 * v_465)) * weighted_e_2);
-            delta[7] = (v_480 + ((v_430 + (v_429 * v_467)) * weighted_e_3)) + ((v_432 + (v_431 * v_469)) *
-                weighted_e_4);
-            const float v_481 = ((v_443 + (u_8_11 * v_463)) * weighted_e) + ((v_445 + (v_444 * v_465)) * weighted_e_2);
-            delta[8] = (v_481 + ((v_447 + (v_446 * v_467)) * weighted_e_3)) + ((v_449 + (v_448 * v_469)) *
-                weighted_e_4);
-            const float v_482 = ((v_453 + (u_9_11 * v_463)) * weighted_e) + ((v_455 + (v_454 * v_465)) * weighted_e_2);
-            delta[9] = (v_482 + ((v_457 + (v_456 * v_467)) * weighted_e_3)) + ((v_459 + (v_458 * v_469)) *
-                weighted_e_4);
-            const float v_483 = ((v_183 + (u_10_11 * v_463)) * weighted_e) + ((v_188 + (v_460 * v_465)) * weighted_e_2);
-            delta[10] = (v_483 + ((v_195 + (v_461 * v_467)) * weighted_e_3)) + ((v_204 + (v_462 * v_469)) *
-                weighted_e_4);
-            delta[11] = (((v_463 * weighted_e) + (v_465 * weighted_e_2)) + (v_467 * weighted_e_3)) + (v_469 *
-                weighted_e_4);
-            nis[0] = (((residual_0 * weighted_e) + (e * weighted_e_2)) + (e_2 * weighted_e_3)) + (e_3 * weighted_e_4);
-            row_variance[0] = s;
-            row_variance[1] = s_2;
-            row_variance[2] = s_3;
-            row_variance[3] = s_4;
-        }
-
-        /* row 4: d = d + K e, Bierman's update of U and D */
-        /* row 5: d = d + K e, Bierman's update of U and D */
-        {
-            const float u_0_9 = after->factors[9];
-            const float u_0_8 = after->factors[8];
-            const float d_8 = after->factors[68];
-            const float v = u_0_8 * d_8;
-            const float u_8_9 = after->factors[69];
-            const float r_4 = params->variance_pose[4];
-            const float v_2 = r_4 + d_8;
-            const float per_a_8 = 1.0f / ((v_2 >= 1.0e-20f) ? v_2 : 1.0f);
-            const float loss_9 = -(u_8_9 * per_a_8);
-            after->factors[9] = u_0_9 + (v * loss_9);
-            const float u_0_10 = after->factors[10];
-            const float d_9 = after->factors[72];
-            const float v_3 = u_8_9 * d_9;
-            const float v_4 = v + (u_0_9 * v_3);
-            const float u_8_10 = after->factors[70];
-            const float v_5 = u_8_9 * v_3;
-            const float v_6 = v_2 + v_5;
-            const float per_a_9 = 1.0f / ((v_6 >= 1.0e-20f) ? v_6 : 1.0f);
-            const float loss_10 = -(u_8_10 * per_a_9);
-            const float v_7 = u_0_10 + (v_4 * loss_10);
-            after->factors[10] = v_7;
-            const float u_0_11 = after->factors[11];
-            const float d_10 = after->factors[75];
-            const float v_8 = u_8_10 * d_10;
-            const float v_9 = v_4 + (u_0_10 * v_8);
-            const float u_8_11 = after->factors[71];
-            const float v_10 = u_8_10 * v_8;
-            const float v_11 = v_6 + v_10;
-            const float per_a_10 = 1.0f / ((v_11 >= 1.0e-20f) ? v_11 : 1.0f);
-            const float loss_11 = -(u_8_11 * per_a_10);
-            const float v_12 = u_0_11 + (v_9 * loss_11);
-            const float new_d_10 = d_10 * (v_6 * per_a_10);
-            const float v_13 = new_d_10 * v_7;
-            const float u_10_11 = after->factors[76];
-            const float v_14 = u_10_11 + (v_8 * loss_11);
-            const float r_5 = params->variance_pose[5];
-            const float v_15 = r_5 + new_d_10;
-            const float per_a_10_2 = 1.0f / ((v_15 >= 1.0e-20f) ? v_15 : 1.0f);
-            const float loss_11_2 = -(v_14 * per_a_10_2);
-            after->factors[11] = v_12 + (v_13 * loss_11_2);
-            const float u_1_9 = after->factors[20];
-            const float u_1_8 = after->factors[19];
-            const float v_16 = u_1_8 * d_8;
-            after->factors[20] = u_1_9 + (v_16 * loss_9);
-            const float u_1_10 = after->factors[21];
-            const float v_17 = v_16 + (u_1_9 * v_3);
-            const float v_18 = u_1_10 + (v_17 * loss_10);
-            after->factors[21] = v_18;
-            const float u_1_11 = after->factors[22];
-            const float v_19 = v_17 + (u_1_10 * v_8);
-            const float v_20 = u_1_11 + (v_19 * loss_11);
-            const float v_21 = new_d_10 * v_18;
-            after->factors[22] = v_20 + (v_21 * loss_11_2);
-            const float u_2_9 = after->factors[30];
-            const float u_2_8 = after->factors[29];
-            const float v_22 = u_2_8 * d_8;
-            after->factors[30] = u_2_9 + (v_22 * loss_9);
-            const float u_2_10 = after->factors[31];
-            const float v_23 = v_22 + (u_2_9 * v_3);
-            const float v_24 = u_2_10 + (v_23 * loss_10);
-            after->factors[31] = v_24;
-            const float u_2_11 = after->factors[32];
-            const float v_25 = v_23 + (u_2_10 * v_8);
-            const float v_26 = u_2_11 + (v_25 * loss_11);
-            const float v_27 = new_d_10 * v_24;
-            after->factors[32] = v_26 + (v_27 * loss_11_2);
-            const float u_3_9 = after->factors[39];
-            const float u_3_8 = after->factors[38];
-            const float v_28 = u_3_8 * d_8;
-            after->factors[39] = u_3_9 + (v_28 * loss_9);
-            const float u_3_10 = after->factors[40];
-            const float v_29 = v_28 + (u_3_9 * v_3);
-            const float v_30 = u_3_10 + (v_29 * loss_10);
-            after->factors[40] = v_30;
-            const float u_3_11 = after->factors[41];
-            const float v_31 = v_29 + (u_3_10 * v_8);
-            const float v_32 = u_3_11 + (v_31 * loss_11);
-            const float v_33 = new_d_10 * v_30;
-            after->factors[41] = v_32 + (v_33 * loss_11_2);
-            const float u_4_9 = after->factors[47];
-            const float u_4_8 = after->factors[46];
-            const float v_34 = u_4_8 * d_8;
-            after->factors[47] = u_4_9 + (v_34 * loss_9);
-            const float u_4_10 = after->factors[48];
-            const float v_35 = v_34 + (u_4_9 * v_3);
-            const float v_36 = u_4_10 + (v_35 * loss_10);
-            after->factors[48] = v_36;
-            const float u_4_11 = after->factors[49];
-            const float v_37 = v_35 + (u_4_10 * v_8);
-            const float v_38 = u_4_11 + (v_37 * loss_11);
-            const float v_39 = new_d_10 * v_36;
-            after->factors[49] = v_38 + (v_39 * loss_11_2);
-            const float u_5_9 = after->factors[54];
-            const float u_5_8 = after->factors[53];
-            const float v_40 = u_5_8 * d_8;
-            after->factors[54] = u_5_9 + (v_40 * loss_9);
-            const float u_5_10 = after->factors[55];
-            const float v_41 = v_40 + (u_5_9 * v_3);
-            const float v_42 = u_5_10 + (v_41 * loss_10);
-            after->factors[55] = v_42;
-            const float u_5_11 = after->factors[56];
-            const float v_43 = v_41 + (u_5_10 * v_8);
-            const float v_44 = u_5_11 + (v_43 * loss_11);
-            const float v_45 = new_d_10 * v_42;
-            after->factors[56] = v_44 + (v_45 * loss_11_2);
-            const float u_6_9 = after->factors[60];
-            const float u_6_8 = after->factors[59];
-            const float v_46 = u_6_8 * d_8;
-            after->factors[60] = u_6_9 + (v_46 * loss_9);
-            const float u_6_10 = after->factors[61];
-            const float v_47 = v_46 + (u_6_9 * v_3);
-            const float v_48 = u_6_10 + (v_47 * loss_10);
-            after->factors[61] = v_48;
-            const float u_6_11 = after->factors[62];
-            const float v_49 = v_47 + (u_6_10 * v_8);
-            const float v_50 = u_6_11 + (v_49 * loss_11);
-            const float v_51 = new_d_10 * v_48;
-            after->factors[62] = v_50 + (v_51 * loss_11_2);
-            const float u_7_9 = after->factors[65];
-            const float u_7_8 = after->factors[64];
-            const float v_52 = u_7_8 * d_8;
-            after->factors[65] = u_7_9 + (v_52 * loss_9);
-            const float u_7_10 = after->factors[66];
-            const float v_53 = v_52 + (u_7_9 * v_3);
-            const float v_54 = u_7_10 + (v_53 * loss_10);
-            after->factors[66] = v_54;
-            const float u_7_11 = after->factors[67];
-            const float v_55 = v_53 + (u_7_10 * v_8);
-            const float v_56 = u_7_11 + (v_55 * loss_11);
-            const float v_57 = new_d_10 * v_54;
-            after->factors[67] = v_56 + (v_57 * loss_11_2);
-            after->factors[68] = d_8 * (r_4 * per_a_8);
-            after->factors[69] = u_8_9 + (d_8 * loss_9);
-            const float v_58 = d_8 + v_5;
-            const float v_59 = u_8_10 + (v_58 * loss_10);
-            after->factors[70] = v_59;
-            const float v_60 = v_58 + v_10;
-            const float v_61 = u_8_11 + (v_60 * loss_11);
-            const float v_62 = new_d_10 * v_59;
-            after->factors[71] = v_61 + (v_62 * loss_11_2);
-            after->factors[72] = d_9 * (v_2 * per_a_9);
-            const float u_9_10 = after->factors[73];
-            const float v_63 = u_9_10 + (v_3 * loss_10);
-            after->factors[73] = v_63;
-            const float u_9_11 = after->factors[74];
-            const float v_64 = v_3 + (u_9_10 * v_8);
-            const float v_65 = u_9_11 + (v_64 * loss_11);
-            const float v_66 = new_d_10 * v_63;
-            after->factors[74] = v_65 + (v_66 * loss_11_2);
-            after->factors[75] = new_d_10 * (r_5 * per_a_10_2);
-            after->factors[76] = v_14 + (new_d_10 * loss_11_2);
-            const float d_11 = after->factors[77];
-            const float v_67 = u_8_11 * d_11;
-            const float v_68 = u_8_11 * v_67;
-            const float s = v_11 + v_68;
-            const float per_a_11 = 1.0f / ((s >= 1.0e-20f) ? s : 1.0f);
-            const float new_d_11 = d_11 * (v_11 * per_a_11);
-            const float v_69 = new_d_11 * v_14;
-            const float v_70 = v_14 * v_69;
-            const float s_2 = v_15 + v_70;
-            const float per_a_11_2 = 1.0f / ((s_2 >= 1.0e-20f) ? s_2 : 1.0f);
-            after->factors[77] = new_d_11 * (v_15 * per_a_11_2);
-            const float delta_8 = delta[8];
-            const float e = residual_4 - delta_8;
-            const float weighted_e = per_a_11 * e;
-            const float v_71 = delta[10] + ((v_8 + (u_10_11 * v_67)) * weighted_e);
-            const float e_2 = residual_5 - v_71;
-            const float weighted_e_2 = per_a_11_2 * e_2;
-            delta[0] = (delta[0] + ((v_9 + (u_0_11 * v_67)) * weighted_e)) + ((v_13 + (v_12 * v_69)) * weighted_e_2);
-            delta[1] = (delta[1] + ((v_19 + (u_1_11 * v_67)) * weighted_e)) + ((v_21 + (v_20 * v_69)) * weighted_e_2);
-            delta[2] = (delta[2] + ((v_25 + (u_2_11 * v_67)) * weighted_e)) + ((v_27 + (v_26 * v_69)) * weighted_e_2);
-            delta[3] = (delta[3] + ((v_31 + (u_3_11 * v_67)) * weighted_e)) + ((v_33 + (v_32 * v_69)) * weighted_e_2);
-            delta[4] = (delta[4] + ((v_37 + (u_4_11 * v_67)) * weighted_e)) + ((v_39 + (v_38 * v_69)) * weighted_e_2);
-            delta[5] = (delta[5] + ((v_43 + (u_5_11 * v_67)) * weighted_e)) + ((v_45 + (v_44 * v_69)) * weighted_e_2);
-            delta[6] = (delta[6] + ((v_49 + (u_6_11 * v_67)) * weighted_e)) + ((v_51 + (v_50 * v_69)) * weighted_e_2);
-            delta[7] = (delta[7] + ((v_55 + (u_7_11 * v_67)) * weighted_e)) + ((v_57 + (v_56 * v_69)) * weighted_e_2);
-            delta[8] = (delta_8 + ((v_60 + v_68) * weighted_e)) + ((v_62 + (v_61 * v_69)) * weighted_e_2);
-            delta[9] = (delta[9] + ((v_64 + (u_9_11 * v_67)) * weighted_e)) + ((v_66 + (v_65 * v_69)) * weighted_e_2);
-            delta[10] = v_71 + ((new_d_10 + v_70) * weighted_e_2);
-            delta[11] = (delta[11] + (v_67 * weighted_e)) + (v_69 * weighted_e_2);
-            nis[0] = (nis[0] + (e * weighted_e)) + (e_2 * weighted_e_2);
-            row_variance[4] = s;
-            row_variance[5] = s_2;
-        }
-
-        if (!(((row_variance[0] >= 1.0e-20f) == true) && ((row_variance[1] >= 1.0e-20f) == true)
-              && ((row_variance[2] >= 1.0e-20f) == true) && ((row_variance[3] >= 1.0e-20f) == true)
-              && ((row_variance[4] >= 1.0e-20f) == true) && ((row_variance[5] >= 1.0e-20f) == true)))
-        {
-            status = QUADROTOR_UD_NOT_POSITIVE;
-        }
-        else
-        {
-            if (!(((out->variance[0] >= 0.0f) == true) && ((out->variance[0] <= 1.0e30f) == true)
-                  && ((out->variance[1] >= 0.0f) == true) && ((out->variance[1] <= 1.0e30f) == true)
-                  && ((out->variance[2] >= 0.0f) == true) && ((out->variance[2] <= 1.0e30f) == true)
-                  && ((out->variance[3] >= 0.0f) == true) && ((out->variance[3] <= 1.0e30f) == true)
-                  && ((out->variance[4] >= 0.0f) == true) && ((out->variance[4] <= 1.0e30f) == true)
-                  && ((out->variance[5] >= 0.0f) == true) && ((out->variance[5] <= 1.0e30f) == true)))
-            {
-                status = QUADROTOR_UD_OVERFLOW;
-            }
-            else
-            {
-                if (!(((nis[0] >= 0.0f) == true) && ((nis[0] <= 1.0e30f) == true)))
-                {
-                    status = QUADROTOR_UD_OVERFLOW;
-                }
-                else
-                {
-                    out->nis = nis[0];
-
-                    /* accepted? */
-                    if ((gate <= 0.0f) || (nis[0] <= gate))
-                    {
-                        /* x = x + d */
-                        after->x = before->x + delta[0];
-                        after->vx = before->vx + delta[1];
-                        after->y = before->y + delta[2];
-                        after->vy = before->vy + delta[3];
-                        after->z = before->z + delta[4];
-                        after->vz = before->vz + delta[5];
-                        after->roll = before->roll + delta[6];
-                        after->roll_rate = before->roll_rate + delta[7];
-                        after->pitch = before->pitch + delta[8];
-                        after->pitch_rate = before->pitch_rate + delta[9];
-                        after->yaw = before->yaw + delta[10];
-                        after->yaw_rate = before->yaw_rate + delta[11];
-                        after->rejected_pose = 0U;
-
-                        /* judge, then commit */
-                        status = quadrotor_ud_hold_factors(after->factors);
-                        if (status >= QUADROTOR_UD_OK)
-                        {
-                            if (!(((after->x >= -10000.0f) == true) && ((after->x <= 10000.0f) == true)
-                                  && ((after->vx >= -1000.0f) == true) && ((after->vx <= 1000.0f) == true)
-                                  && ((after->y >= -10000.0f) == true) && ((after->y <= 10000.0f) == true)
-                                  && ((after->vy >= -1000.0f) == true) && ((after->vy <= 1000.0f) == true)
-                                  && ((after->z >= -10000.0f) == true) && ((after->z <= 10000.0f) == true)
-                                  && ((after->vz >= -1000.0f) == true) && ((after->vz <= 1000.0f) == true)
-                                  && ((after->roll >= -30.0f) == true) && ((after->roll <= 30.0f) == true)
-                                  && ((after->roll_rate >= -100.0f) == true) && ((after->roll_rate <= 100.0f) == true)
-                                  && ((after->pitch >= -30.0f) == true) && ((after->pitch <= 30.0f) == true)
-                                  && ((after->pitch_rate >= -100.0f) == true) && ((after->pitch_rate <= 100.0f) == true)
-                                  && ((after->yaw >= -30.0f) == true) && ((after->yaw <= 30.0f) == true)
-                                  && ((after->yaw_rate >= -100.0f) == true) && ((after->yaw_rate <= 100.0f) == true)))
-                            {
-                                status = QUADROTOR_UD_OVERFLOW;
-                            }
-                        }
-                    }
-                    else
-                    {
-                        *after = *before;
-                        if (after->rejected_pose < UINT32_MAX)
-                        {
-                            after->rejected_pose = after->rejected_pose + 1U;
-                        }
-                        status = quadrotor_ud_higher(status, QUADROTOR_UD_GATED);
-                    }
-                }
-            }
-        }
+        status = quadrotor_ud_update_pose_judged(before, after, params, pose, gate, out);
     }
     return status;
 }
@@ -3011,7 +2948,10 @@ static quadrotor_ud_status_t quadrotor_ud_inflate_core(const quadrotor_ud_state_
         }
 
         /* judge, then commit */
-        status = quadrotor_ud_hold_factors(after->factors);
+        if (!quadrotor_ud_is_bounded(after->factors))
+        {
+            status = quadrotor_ud_hold_factors(after->factors);
+        }
     }
     return status;
 }
@@ -3187,7 +3127,7 @@ quadrotor_ud_status_t quadrotor_ud_inflate(quadrotor_ud_state_t *state, const qu
 /* The hash of the model, as in the header. */
 const char *quadrotor_ud_model(void)
 {
-    return "e19130e8";
+    return "f4dfb1d1";
 }
 
 /* A sentence for a status. */
@@ -3204,7 +3144,7 @@ const char *quadrotor_ud_status_text(quadrotor_ud_status_t status)
             text = "innovation beyond the gate: reading not used";
             break;
         case QUADROTOR_UD_CLAMPED:
-            text = "a variance was held at its ceiling or floor";
+            text = "a value (a variance, a command) was held at its limit";
             break;
         case QUADROTOR_UD_SKIPPED:
             text = "a sensor was refused and skipped: see its own status";

@@ -1,6 +1,6 @@
 /* quadrotor_ud: Extended Kalman filter of the plant "quadrotor6", in single precision.
  *
- * Written by plantc 0.1.0 from model e19130e8. Do not edit: change the model, export again.
+ * Written by plantc 0.1.0 from model f4dfb1d1. Do not edit: change the model, export again.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  *
  *    x' = vx
@@ -49,7 +49,7 @@ typedef enum
 {
     QUADROTOR_UD_OK = 0,              /* ok */
     QUADROTOR_UD_GATED = 1,           /* innovation beyond the gate: reading not used */
-    QUADROTOR_UD_CLAMPED = 2,         /* a variance was held at its ceiling or floor */
+    QUADROTOR_UD_CLAMPED = 2,         /* a value (a variance, a command) was held at its limit */
     QUADROTOR_UD_SKIPPED = 3,         /* a sensor was refused and skipped: see its own status */
     QUADROTOR_UD_RECOVERED = 4,       /* gated too often in a row: P inflated, reading taken without gate */
     QUADROTOR_UD_BAD_INPUT = -1,      /* an input is outside its range, or not a number */

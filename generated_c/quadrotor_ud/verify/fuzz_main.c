@@ -1,5 +1,5 @@
 /* Calls every entry of quadrotor_ud with plausible and implausible values, and looks at what each call leaves behind.
- * Written by plantc 0.1.0 from model e19130e8.
+ * Written by plantc 0.1.0 from model f4dfb1d1.
  *
  * After a refused call memory and outputs must be bit for bit what they were. After any other call the memory must be
  * within its stated ranges; and where the parameters are within theirs, outputs that are judged must be within theirs,

@@ -1,4 +1,4 @@
-/* How to call quadrotor_ud from a sketch. Written by plantc 0.1.0 from model e19130e8.
+/* How to call quadrotor_ud from a sketch. Written by plantc 0.1.0 from model f4dfb1d1.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  */
 #include <quadrotor_ud.h>
