@@ -1,7 +1,9 @@
 """Which statements of the C the shipped vectors run, and which branches vectors and corpus take together: counted by gcov.
 
-A statement that no vector runs fails the export, unless it belongs to a judgement that no call of the corpus made fail
-either: then it is listed with that reason. Branches that nothing took are listed with a reason each.
+A statement that no vector runs fails the export, unless no call of the corpus ran it either, and it is none of those that
+some call always reaches. What nothing reached is listed with the reason, where one follows from the program: proved by its
+ranges, implied by what was done just before, or left to rounding alone. Else it says that no reason is known, and the
+check's note counts these.
 """
 
 from __future__ import annotations
@@ -9,6 +11,7 @@ from __future__ import annotations
 import ctypes
 import json
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -20,16 +23,20 @@ from typing import Any
 import numpy as np
 
 from ..symbolic.block import Block
-from ..symbolic.program import Entry
+from ..symbolic.program import Call, Entry, judgements, walk
+from ..symbolic.ranges import idle_judgements
 from ..symbolic.signals import Kind, Signal
 from .crosscheck import FrozenStream, Probe, default_scenario
 from .findings import CheckResult, Findings
 from .layout import fill, flatten
-from .provenance import Parent, Provenance
+from .provenance import Genealogy, Parent, Provenance
 from .selection import crafted, is_off, is_packed, reachable
 from .views import NativeView
 
 FUZZED_CALLS = 20000
+NAME = "vectors reach every statement"
+NO_REASON = "no reason known"
+PROVED = "proved by the ranges: what is judged here was copied from what was judged to be within these bounds"
 ONLY_CORPUS = "calls of the corpus run it; no rule found one among them that is a vector on every machine"
 LARGEST_SHARE_LEFT_OUT = 0.05
 """Share of the statements that only the corpus may run, all of them rare: judgements, statuses, bookkeeping."""
@@ -120,15 +127,20 @@ def measure_coverage(
     """
     absent = missing_tool()
     if absent:
-        return Findings([], {"coverage": absent})
+        return _not_judged(absent)
     try:
         with tempfile.TemporaryDirectory(prefix="plantc-coverage-") as name:
             bench = _Bench(Path(name), block, precision, files)
             by_vectors = bench.after_vectors()
             together, corpus = bench.after_corpus(calls)
     except (CountingError, json.JSONDecodeError) as error:
-        return Findings([], {"coverage": f"not measured: {error}"})
+        return _not_judged(f"not measured: {error}")
     return _findings(block, files[f"src/{block.name}.c"], provenance, by_vectors, together, corpus)
+
+
+def _not_judged(reason: str) -> Findings:
+    """Return what is found where nothing can be counted: a check that says so."""
+    return Findings([CheckResult(NAME, True, not_judged=reason.removeprefix("not measured: "))], {"coverage": reason})
 
 
 class _Bench:
@@ -282,43 +294,127 @@ def _random(block: Block, view: NativeView) -> Iterator[Probe]:
         yield Probe("random", k, entry, memory, view.inputs(entry, values), limited if k % 2 else params)
 
 
-def _is_mathematical(block: Block, provenance: Provenance, number: int) -> bool:
-    """Whether a line is in a function of the emitted mathematics, which stands in for that of <math.h>."""
-    for name, first, last in provenance.functions:
-        if first <= number <= last:
-            return name.startswith(f"{block.name}_math_")
-    return False
+class _Reasons:
+    """Says why a line of the C, or a branch on it, is reached by nothing."""
+
+    def __init__(self, block: Block, source: str, provenance: Provenance, corpus: int):
+        self.block, self.provenance, self.corpus = block, provenance, corpus
+        self.lines = source.split("\n")
+        self.proved: set[Parent] = set()
+        self.owed: set[Parent] = set()
+        for entry in block.entries.values():
+            family = Genealogy(block, entry)
+            self.owed |= {family.of(statement) for statement in judgements(block, entry)}
+        for owner, entry, path in _all_entries(block):
+            family = Genealogy(owner, entry, path)
+            self.proved |= {family.of(statement) for statement in idle_judgements(owner, entry)}
+
+    def statement(self, number: int, by_corpus: bool) -> str:
+        """Return why a statement need not be reached by a vector; empty if it must be."""
+        parent = self.provenance.of_line(number)
+        if self._is_mathematical(number):
+            ran = "calls of the corpus run it" if by_corpus else f"{NO_REASON}: none of {self.corpus} calls runs it"
+            return f"a branch of a mathematical function for arguments that no vector has; {ran}"
+        if parent is None:
+            return ""
+        if by_corpus:
+            return ONLY_CORPUS if parent.kind in _MAY_BE_RARE else ""
+        if parent.kind != "judgement" or parent in self.owed:
+            return ""  # a value outside its range is always there to be given
+        if parent in self.proved:
+            return PROVED
+        return f"{NO_REASON}: none of {self.corpus} calls made this judgement fail"
+
+    def branch(self, number: int) -> str:
+        """Return why nothing took a branch on a line."""
+        parent = self.provenance.of_line(number)
+        if parent is not None and parent in self.proved:
+            return PROVED
+        if self._is_mathematical(number):
+            return (
+                f"{NO_REASON}: a branch of a mathematical function, for arguments none of {self.corpus} calls gave it"
+            )
+        if self._is_looked_at_again(number):
+            return "implied: the function that alone calls this one has raised each of these to its floor"
+        if self._is_wrapped(number):
+            return "implied, but for rounding: each of these angles was wrapped to -pi .. pi just before"
+        return f"{NO_REASON}: none of {self.corpus} calls took it"
+
+    def _function(self, number: int) -> tuple[str, int, int]:
+        return next((item for item in self.provenance.functions if item[1] <= number <= item[2]), ("", 0, -1))
+
+    def _is_mathematical(self, number: int) -> bool:
+        """Whether a line is in a function of the emitted mathematics, which stands in for that of <math.h>."""
+        return self._function(number)[0].startswith(f"{self.block.name}_math_")
+
+    def _is_looked_at_again(self, number: int) -> bool:
+        """Whether a line compares with a floor what its only caller has raised to that floor."""
+        name, first, last = self._function(number)
+        if not name.endswith("_is_held") or ">=" not in self.lines[number - 1] or "<=" in self.lines[number - 1]:
+            return False
+        calls = [k for k, line in enumerate(self.lines, 1) if f"{name}(" in line and not first <= k <= last]
+        callers = {self._function(k) for k in calls}
+        return len(callers) == 1 and all(
+            any("= floor_i;" in line for line in self.lines[start - 1 : calls[0]]) for _, start, _ in callers
+        )
+
+    def _is_wrapped(self, number: int) -> bool:
+        """Whether a line judges nothing but angles that were wrapped in the same function before."""
+        names = set(re.findall(r"after->(\w+)", self.lines[number - 1]))
+        wide = {item.name for item in self.block.memory_signals if item.angle and item.high[0] > 3.1416}
+        _, first, _ = self._function(number)
+        before = self.lines[first - 1 : number - 1]
+        return bool(names) and names <= wide and all(_last_store(before, name) for name in names)
+
+
+def _last_store(lines: Sequence[str], name: str) -> bool:
+    """Whether the last value that was stored in a field was wrapped, and by how many turns came from `floor`."""
+    stores = [line for line in lines if re.search(rf"after->{name} = ", line)]
+    return bool(stores) and re.search(r"\* floorf?\(", stores[-1]) is not None
+
+
+def _all_entries(block: Block) -> Iterator[tuple[Block, Entry, str]]:
+    """Yield the entries of a block and those of the parts that it calls, with the names that lead there."""
+    open_ = [(block, entry, "") for entry in block.entries.values()]
+    done = set()
+    while open_:
+        owner, entry, path = open_.pop()
+        if path + entry.name in done:
+            continue
+        done.add(path + entry.name)
+        yield owner, entry, path
+        for statement in walk(entry.body):
+            if isinstance(statement, Call):
+                part = owner.parts[statement.part] if statement.part else owner
+                below = f"{path}{statement.part}." if statement.part else path
+                open_.append((part, part.entries[statement.entry], below))
 
 
 def _findings(
     block: Block, source: str, provenance: Provenance, by_vectors: Counts, together: Counts, corpus: int
 ) -> Findings:
-    lines = source.split("\n")
+    reasons = _Reasons(block, source, provenance, corpus)
     unreachable: list[dict[str, Any]] = []
     faults: list[str] = []
-    left_out = 0
     for number in by_vectors.missed():
-        parent = provenance.of_line(number)
-        text = lines[number - 1].strip()
-        reason = _statement_reason(block, provenance, number, together.lines.get(number, 0) > 0, parent, corpus)
-        left_out += reason == ONLY_CORPUS
+        text = reasons.lines[number - 1].strip()
+        reason = reasons.statement(number, together.lines.get(number, 0) > 0)
         if reason:
             unreachable.append({"line": number, "what": "statement", "text": text, "reason": reason})
         else:
             faults.append(f"line {number}: {text}")
+    left_out = sum(item["reason"] == ONLY_CORPUS for item in unreachable)
     for number, count in together.untaken().items():
-        reason = _branch_reason(block, provenance, number, provenance.of_line(number), lines[number - 1], corpus)
         what = "branch" if count == 1 else f"{count} branches"
-        unreachable.append({"line": number, "what": what, "text": lines[number - 1].strip(), "reason": reason})
+        text = reasons.lines[number - 1].strip()
+        unreachable.append({"line": number, "what": what, "text": text, "reason": reasons.branch(number)})
     statements, _ = by_vectors.as_numbers()
     all_statements, branches = together.as_numbers()
     too_many = left_out > LARGEST_SHARE_LEFT_OUT * statements["all"]
-    check = CheckResult("vectors reach every statement", not faults and not too_many, calls=statements["all"])
+    check = CheckResult(NAME, not faults and not too_many, calls=statements["all"])
+    check.note = _note(unreachable, left_out)
     if too_many:
         check.note = f"{left_out} statement(s) that only the corpus runs, and no shipped vector"
-    elif by_vectors.missed():
-        check.note = f"but {len(by_vectors.missed())}, each listed with its reason"
-        check.note += f"; {left_out} of them rare, which only the corpus runs" if left_out else ""
     if faults:
         check.note = f"{len(faults)} statement(s) that no shipped vector runs; first {faults[0]}"
     facts = {
@@ -327,35 +423,20 @@ def _findings(
         "statements_with_corpus": all_statements,
         "branches": branches,
         "corpus_calls": corpus,
+        "no_reason_known": sum(NO_REASON in item["reason"] for item in unreachable),
         "unreachable": unreachable,
     }
     return Findings([check], {"coverage": facts})
 
 
-def _statement_reason(
-    block: Block, provenance: Provenance, number: int, by_corpus: bool, parent: Parent | None, corpus: int
-) -> str:
-    """Return why a statement need not be reached by a vector; empty if it must be."""
-    if _is_mathematical(block, provenance, number):
-        ran = "calls of the corpus run it" if by_corpus else f"none of {corpus} calls runs it"
-        return f"a branch of a mathematical function for arguments that no vector has; {ran}"
-    if not by_corpus and parent is not None and parent.kind == "judgement":
-        return f"none of {corpus} calls made this judgement fail; it stays as a defence"
-    if by_corpus and parent is not None and parent.kind in _MAY_BE_RARE:
-        return ONLY_CORPUS
-    return ""
-
-
-def _branch_reason(
-    block: Block, provenance: Provenance, number: int, parent: Parent | None, line: str, corpus: int
-) -> str:
-    """Return why nothing took a branch."""
-    if _is_mathematical(block, provenance, number):
-        return f"a branch of a mathematical function for arguments that none of {corpus} calls gave it"
-    if parent is not None and parent.kind == "judgement":
-        return f"none of {corpus} calls had this bound alone decide; it stays as a defence"
-    if "?" in line:
-        return f"none of {corpus} calls needed the value that keeps a quotient finite, or the other way of a choice"
-    if "status >=" in line or "own >=" in line:
-        return f"none of {corpus} calls was refused just before"
-    return f"none of {corpus} calls took it"
+def _note(unreachable: Sequence[Mapping[str, Any]], left_out: int) -> str:
+    """Return what a check that passed says of what was not reached."""
+    missed = sum(item["what"] == "statement" for item in unreachable)
+    unknown = sum(NO_REASON in item["reason"] for item in unreachable)
+    notes = [f"but {missed}"] if missed else []
+    if left_out:
+        notes.append(f"{left_out} of them rare, which only the corpus runs")
+    if unreachable:
+        lines = f"{len(unreachable)} line(s) with a statement or a branch that was not reached"
+        notes.append(f"{lines}, each listed; no reason is known for {unknown} of them")
+    return "; ".join(notes)

@@ -121,7 +121,9 @@ MEASUREMENTS: list[tuple[str, Measurement]] = [
 """What every export that passed its cross-check is measured by, in this order: (what is being done, how)."""
 
 
-def build_files(block: Block, options: Options | str = "double") -> dict[str, str]:
+def build_files(
+    block: Block, options: Options | str = "double", checks: list[CheckResult] | None = None
+) -> dict[str, str]:
     """Return path in the folder -> text of everything that follows from model and generator alone.
 
     Nothing is checked and nothing measured: this is what `export` writes, and what `plantc check` compares with.
@@ -132,12 +134,16 @@ def build_files(block: Block, options: Options | str = "double") -> dict[str, st
         What is written.
     options : Options, or {"double", "float"}
         The choices.
+    checks : list of CheckResult, optional
+        Takes what was found on the way: whether C and model agree on what might have become a vector.
     """
     chosen = options if isinstance(options, Options) else Options(Precision(options))
     precision = chosen.precision.name
     text = emit(block, precision, mathematics=chosen.mathematics)
     native = NativeView(block, precision, text=text if chosen.mathematics == "own" else None)
     vectors = choose_vectors(block, precision, _rare_calls(block, precision, native), native)
+    if checks is not None:
+        checks.append(vectors.agreement)
     name = block.name
     context: dict[str, Any] = {
         "name": name,
@@ -284,7 +290,7 @@ def export(
     )
     if not check.passed:
         raise ExportError(failure_text(block, check), check)
-    files = build_files(block, chosen)
+    files = build_files(block, chosen, check.results)
     draft = Draft(block, chosen, compiled.text, files, check)
     facts: dict[str, Any] = {}
     for done, (what, measure) in enumerate(MEASUREMENTS):
@@ -406,7 +412,7 @@ def check_folder(
     if set(targets) - {"host"}:
         report("targets", 0, 1)
         check.results += measure_targets(block, options, native.text, check).checks
-    expected = build_files(block, options)
+    expected = build_files(block, options, check.results)
     changed = [file for file, text in expected.items() if file in present and present[file] != text]
     stored = folder / "manifest.json"
     if stored.is_file() and stored.read_text() != expected["manifest.json"] and "manifest.json" not in changed:

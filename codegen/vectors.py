@@ -10,8 +10,9 @@ import numpy as np
 from ..symbolic.block import Block
 from ..symbolic.program import Visit
 from ..symbolic.signals import Kind, Signal, Status
-from .crosscheck import CrossCheck, FrozenStream, Probe, default_scenario
+from .crosscheck import CrossCheck, FrozenStream, Lockstep, Probe, default_scenario, make_views
 from .emit import generator_version, templates
+from .findings import CheckResult
 from .layout import fill, flatten
 from .selection import Feature, added, chosen, crafted, features, reachable
 from .style import Precision
@@ -19,6 +20,7 @@ from .views import Answer, InterpretView, NativeView, Record, View
 
 LONGEST = 24
 DIGITS = {"double": 9, "float": 6}
+AGREEMENT = "candidates for vectors = model"
 TOLERANCE = {"double": 1e-6, "float": 2e-3}
 
 
@@ -37,7 +39,13 @@ class Vector:
 
 
 class VectorTable:
-    """Collects calls and writes them as C."""
+    """Collects calls and writes them as C.
+
+    Attributes
+    ----------
+    agreement : CheckResult
+        Whether C and model agreed on every candidate that was tried: one that differs is no vector, and is a fault.
+    """
 
     def __init__(self, block: Block, precision: Precision):
         self.block, self.precision = block, precision
@@ -47,6 +55,7 @@ class VectorTable:
         self.inputs: dict[str, list[str]] = {name: [] for name in block.entries}
         self.outputs: dict[str, list[str]] = {name: [] for name in block.entries}
         self.vectors: list[Vector] = []
+        self.agreement = CheckResult(AGREEMENT, True)
         self._rounded: dict[tuple[Any, bytes], Record] = {}
 
     def rounded(self, record: Record) -> Record:
@@ -145,7 +154,10 @@ def choose_vectors(block: Block, precision: str, check: CrossCheck, native: Nati
     def run(probe: Probe) -> Answer:
         return _answer(view, probe, 0.0)
 
+    lock = Lockstep(block, precision, make_views(block, precision, shape))
+
     def usable(probe: Probe) -> bool:
+        lock.compare(probe)
         return _is_sturdy((view, shape), probe, run(probe).status, sizes, precision)
 
     # the nominal sequence shows what good nominal calls reach
@@ -159,6 +171,7 @@ def choose_vectors(block: Block, precision: str, check: CrossCheck, native: Nati
     picked += added(block, crafted(block, shape, check.calls, missing), missing, shipped, run, usable)
     for probe in picked:
         _add(table, view, shape, probe)
+    table.agreement = lock.agreement(AGREEMENT)
     return table
 
 

@@ -32,8 +32,13 @@ def test_the_vectors_reach_every_statement_and_the_rest_has_reasons(drafted, nee
     for item in (item for item in missed if "mathematical" not in item["reason"]):
         assert provenance.of_line(item["line"]).entry == "init"
         assert "hold_variances" in item["text"]
+        assert item["reason"] == coverage.PROVED
     # hold_variances has brought each variance to its floor before is_held looks at it
-    assert all("covariance[" in item["text"] and ">=" in item["text"] for item in unexplained(facts))
+    again = [item for item in facts["unreachable"] if "covariance[" in item["text"] and ">=" in item["text"]]
+    assert [item["reason"].split(":")[0] for item in again] == ["implied"] * 2
+    # a square over what is positive is never negative, which ranges alone do not prove
+    assert [item["text"].split(" >=")[0] for item in unexplained(facts)] == ["if (!(((nis[0]"]
+    assert f"no reason is known for {facts['no_reason_known']} of them" in check.note
     assert facts["branches"]["reached"] > 0.9 * facts["branches"]["all"]
     assert all(item["reason"] for item in facts["unreachable"])
     assert all(item["reason"] != coverage.ONLY_CORPUS for item in facts["unreachable"])
@@ -76,16 +81,51 @@ def test_without_gcov_the_evidence_says_so(drafted, monkeypatch):
     monkeypatch.setattr(coverage.shutil, "which", lambda tool: None)
     files, provenance, calls = drafted
     found = measure_coverage(pendulum_ekf, "float", files, provenance, calls)
-    assert found.checks == []
+    (check,) = found.checks
+    assert (check.name, check.verdict) == ("vectors reach every statement", "not judged")
+    assert check.remark == "not judged: gcc and gcov not found; install gcc, which brings gcov"
     assert found.facts["coverage"] == "not measured: gcc and gcov not found; install gcc, which brings gcov"
 
 
+def test_a_gcov_that_fails_is_not_judged(drafted, needs, monkeypatch):
+    needs("gcc", "gcov")
+
+    def broken(self):
+        raise coverage.CountingError("gcov failed while coverage was counted")
+
+    monkeypatch.setattr(coverage._Bench, "after_vectors", broken)
+    files, provenance, calls = drafted
+    found = measure_coverage(pendulum_ekf, "float", files, provenance, calls)
+    assert [item.verdict for item in found.checks] == ["not judged"]
+    assert found.facts["coverage"].startswith("not measured: gcov failed")
+
+
+@pytest.mark.parametrize("range_", ["(encoder <= 1000.0f)", "(params->length <= 100.0f)"])
+def test_a_verdict_that_never_fires_is_a_fault(drafted, needs, range_):
+    """Planted: what refuses an input or a parameter is there, but nothing gets it to."""
+    needs("gcc", "gcov")
+    files, provenance, calls = drafted
+    source = files["src/pendulum_ekf.c"]
+    status = "BAD_INPUT" if "encoder" in range_ else "BAD_PARAM"
+    lines = source.split("\n")
+    at = next(k for k, line in enumerate(lines) if range_ in line)
+    start = next(k for k in range(at, 0, -1) if lines[k].lstrip().startswith("if (!"))
+    stop = next(k for k in range(at, len(lines)) if f"status = PENDULUM_EKF_{status};" in lines[k])
+    assert stop - start < 20
+    value = range_[1:].split(" ")[0]  # equal to two numbers at once: what the compiler does not see
+    lines[start] = lines[start].replace("if (!", f"if (({value} == 0.0f) && ({value} == 1.0f) && !", 1)
+    planted = {**files, "src/pendulum_ekf.c": "\n".join(lines)}
+    (check,) = measure_coverage(pendulum_ekf, "float", planted, provenance, calls).checks
+    assert check.verdict == "failed"
+    assert f"status = PENDULUM_EKF_{status};" in check.note
+
+
 def unexplained(facts):
-    """Branches that no call took and that are neither a defence nor a case of a mathematical function."""
+    """What no call reached for no known reason, cases of mathematical functions left out."""
     return [
         item
         for item in facts["unreachable"]
-        if "branch" in item["what"] and "defence" not in item["reason"] and "mathematical" not in item["reason"]
+        if coverage.NO_REASON in item["reason"] and "mathematical" not in item["reason"]
     ]
 
 
@@ -97,7 +137,8 @@ def test_shapes_pass_the_gate(small_shape, needs):
     assert found.checks[0].passed, found.checks[0].note
     facts = found.facts["coverage"]
     assert all(item["reason"] != coverage.ONLY_CORPUS for item in facts["unreachable"])
-    assert len(unexplained(facts)) <= 0.05 * facts["branches"]["all"]
+    # judgements inside a part of what another part computed within their bounds are among these
+    assert len(unexplained(facts)) <= 0.1 * facts["branches"]["all"]
 
 
 @pytest.mark.slow
@@ -109,7 +150,7 @@ def test_the_large_examples_leave_nothing_to_the_corpus(shape_named, needs, name
     found = measure_coverage(block, precision, build_files(block, precision), emit(block, precision).provenance, calls)
     assert found.checks[0].passed, found.checks[0].note
     assert all(item["reason"] != coverage.ONLY_CORPUS for item in found.facts["coverage"]["unreachable"])
-    assert len(unexplained(found.facts["coverage"])) <= 16
+    assert len(unexplained(found.facts["coverage"])) <= 20  # bounds of a unit quaternion, most of them
 
 
 def filtered_encoder():

@@ -1,13 +1,18 @@
 """Faults that a reviewer planted in the pendulum's C and that once passed every check: each has a check that names it."""
 
 import dataclasses
+import re
 
 import pytest
+from plantc.codegen import crosscheck
 from plantc.codegen.crosscheck import cross_check, make_views
 from plantc.codegen.emit import emit
+from plantc.codegen.package import _rare_calls
+from plantc.codegen.vectors import choose_vectors
 from plantc.codegen.views import NativeView
 from plantc.examples.pendulum import pendulum_ekf
 from plantc.symbolic import Block
+from plantc.symbolic.block import Scenario
 
 
 def checked(block, precision, right, wrong, steps=60):
@@ -20,6 +25,10 @@ def checked(block, precision, right, wrong, steps=60):
 
 def failed(check):
     return {result.name for result in check.failures}
+
+
+def named(results, name):
+    return next(item for item in results if item.name == name)
 
 
 def low_pass():
@@ -90,3 +99,67 @@ def test_ends_that_single_precision_rounds_are_judged_as_the_c_has_them(precisio
     verdicts = next(item for item in check.results if item.name == "verdicts on inputs and parameters")
     assert verdicts.passed
     assert verdicts.calls > 5
+
+
+def test_a_wrong_constant_is_no_rounding():
+    """A wrap that turns by 6.283: far less than a sensor refused a rounding away causes, far more than rounding."""
+    result = named(checked(pendulum_ekf, "float", "6.2831855f", "6.283f", steps=100).results, "float = double")
+    assert not result.passed
+    assert result.mismatch.difference > 0.05
+
+
+def test_what_is_excused_is_bounded_and_shown(monkeypatch):
+    """Planted: were every difference rounding's own, the wrong constant would pass; the largest excused one is shown."""
+    monkeypatch.setattr(crosscheck, "LARGEST_GROWTH", 1e9)
+    result = named(checked(pendulum_ekf, "float", "6.2831855f", "6.283f", steps=100).results, "float = double")
+    assert result.passed
+    assert re.search(
+        r"ill-conditioned of \d+ calls; the largest differs by [\d.]+ at adversarial step \d+, step", result.note
+    )
+    assert "one unit in the last place causes" in result.note
+
+
+def test_too_many_excused_differences_are_a_failure(monkeypatch):
+    monkeypatch.setattr(crosscheck, "LARGEST_GROWTH", 1e9)
+    gain = "const float per_s = 1.0f / ("
+    result = named(checked(pendulum_ekf, "float", gain, gain.replace("1.0f", "1.5f")).results, "float = double")
+    assert not result.passed
+    assert "more than 5 % of the calls" in result.note
+
+
+def test_a_gain_that_is_2_percent_off_is_no_rounding():
+    check = checked(low_pass(), "float", "params->weight * ", "(1.02f * params->weight) * ")
+    assert failed(check) == {"float = double"}
+
+
+def test_a_candidate_on_which_c_and_model_differ_is_a_failure_not_a_drop():
+    """The fault that the cross-check would see too is seen by the choice of vectors alone."""
+    text = emit(pendulum_ekf, "float")
+    right, wrong = "encoder <= 1000.0f", "encoder <= 1.0e30f"
+    faulty = NativeView(pendulum_ekf, "float", text=dataclasses.replace(text, source=text.source.replace(right, wrong)))
+    calls = _rare_calls(pendulum_ekf, "float", faulty)
+    agreement = choose_vectors(pendulum_ekf, "float", calls, faulty).agreement
+    assert (agreement.passed, agreement.mismatch.right_value) == (False, "BAD_INPUT")
+    good = choose_vectors(pendulum_ekf, "float", _rare_calls(pendulum_ekf, "float")).agreement
+    assert good.passed
+    assert good.calls > 10
+
+
+def test_nominal_calls_that_are_refused_are_counted_by_status():
+    block = Block("narrow", doc="a memory that its own scenario leaves in one call of ten")
+    raw = block.input("raw", range=(-10, 10))
+    kept = block.memory("kept", range=(-1, 1))
+    block.entry("step", inputs=[raw], following={kept: raw})
+
+    def calls(rng, steps):
+        yield "init", {}
+        for k in range(steps):
+            yield "step", {"raw": 5.0 if k % 10 == 0 else 0.5}
+
+    block.scenario = Scenario(calls, lambda rng: {"kept": 0.0})
+    result = named(cross_check(block, steps=100).results, "nominal calls are accepted")
+    assert not result.passed
+    assert result.note == (
+        "10 of 101 nominal calls were refused (10 OVERFLOW), more than 5 %; widen the ranges of what is refused, "
+        "or mend the scenario"
+    )
