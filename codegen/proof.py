@@ -433,7 +433,7 @@ def proof_source(block: Block, text: CText, task: Task) -> str:
 
 
 def analyse(
-    block: Block, text: CText, task: Task, effort: int, *, seconds: float = 300.0
+    block: Block, text: CText, task: Task, effort: int, *, seconds: float = 900.0
 ) -> tuple[list[Property], frozenset[str]]:
     """Return every property of one task that Frama-C looked at, and which ways of returning it reached.
 
@@ -494,7 +494,7 @@ def analyse(
     return kept, ways
 
 
-def prove_task(block: Block, text: CText, task: Task, *, seconds: float = 300.0) -> CheckResult:
+def prove_task(block: Block, text: CText, task: Task, *, seconds: float = 900.0) -> CheckResult:
     """Prove one function, with more effort where less does not do."""
     needed = {"accepted", "refused"} if "show_each" in task.harness else set()
     started, note, count = time.perf_counter(), "", 0
@@ -516,7 +516,7 @@ def prove_task(block: Block, text: CText, task: Task, *, seconds: float = 300.0)
     return CheckResult(f"proof of {task.name}", False, calls=count, note=note)
 
 
-def prove(block: Block, text: CText, names: Sequence[str] = (), *, seconds: float = 300.0) -> Findings:
+def prove(block: Block, text: CText, names: Sequence[str] = (), *, seconds: float = 900.0) -> Findings:
     """Prove that no sequence of calls takes the memory out of its ranges, whatever the inputs.
 
     Parameters
