@@ -1710,7 +1710,7 @@ const char *attitude_ekf_status_text(attitude_ekf_status_t status)
             text = "innovation beyond the gate: reading not used";
             break;
         case ATTITUDE_EKF_CLAMPED:
-            text = "a variance was held at its ceiling or floor";
+            text = "a value (a variance, a command) was held at its limit";
             break;
         case ATTITUDE_EKF_SKIPPED:
             text = "a sensor was refused and skipped: see its own status";

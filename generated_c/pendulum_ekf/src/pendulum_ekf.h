@@ -30,7 +30,7 @@ typedef enum
 {
     PENDULUM_EKF_OK = 0,              /* ok */
     PENDULUM_EKF_GATED = 1,           /* innovation beyond the gate: reading not used */
-    PENDULUM_EKF_CLAMPED = 2,         /* a variance was held at its ceiling or floor */
+    PENDULUM_EKF_CLAMPED = 2,         /* a value (a variance, a command) was held at its limit */
     PENDULUM_EKF_SKIPPED = 3,         /* a sensor was refused and skipped: see its own status */
     PENDULUM_EKF_RECOVERED = 4,       /* gated too often in a row: P inflated, reading taken without gate */
     PENDULUM_EKF_BAD_INPUT = -1,      /* an input is outside its range, or not a number */

@@ -1560,7 +1560,7 @@ const char *quadrotor_ekf_status_text(quadrotor_ekf_status_t status)
             text = "innovation beyond the gate: reading not used";
             break;
         case QUADROTOR_EKF_CLAMPED:
-            text = "a variance was held at its ceiling or floor";
+            text = "a value (a variance, a command) was held at its limit";
             break;
         case QUADROTOR_EKF_SKIPPED:
             text = "a sensor was refused and skipped: see its own status";

@@ -61,7 +61,7 @@ typedef enum
 {
     QUADROTOR_EKF_OK = 0,              /* ok */
     QUADROTOR_EKF_GATED = 1,           /* innovation beyond the gate: reading not used */
-    QUADROTOR_EKF_CLAMPED = 2,         /* a variance was held at its ceiling or floor */
+    QUADROTOR_EKF_CLAMPED = 2,         /* a value (a variance, a command) was held at its limit */
     QUADROTOR_EKF_SKIPPED = 3,         /* a sensor was refused and skipped: see its own status */
     QUADROTOR_EKF_RECOVERED = 4,       /* gated too often in a row: P inflated, reading taken without gate */
     QUADROTOR_EKF_BAD_INPUT = -1,      /* an input is outside its range, or not a number */

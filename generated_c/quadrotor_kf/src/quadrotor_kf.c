@@ -1353,7 +1353,7 @@ const char *quadrotor_kf_status_text(quadrotor_kf_status_t status)
             text = "innovation beyond the gate: reading not used";
             break;
         case QUADROTOR_KF_CLAMPED:
-            text = "a variance was held at its ceiling or floor";
+            text = "a value (a variance, a command) was held at its limit";
             break;
         case QUADROTOR_KF_SKIPPED:
             text = "a sensor was refused and skipped: see its own status";

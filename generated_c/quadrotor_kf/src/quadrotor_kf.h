@@ -52,7 +52,7 @@ typedef enum
 {
     QUADROTOR_KF_OK = 0,              /* ok */
     QUADROTOR_KF_GATED = 1,           /* innovation beyond the gate: reading not used */
-    QUADROTOR_KF_CLAMPED = 2,         /* a variance was held at its ceiling or floor */
+    QUADROTOR_KF_CLAMPED = 2,         /* a value (a variance, a command) was held at its limit */
     QUADROTOR_KF_SKIPPED = 3,         /* a sensor was refused and skipped: see its own status */
     QUADROTOR_KF_RECOVERED = 4,       /* gated too often in a row: P inflated, reading taken without gate */
     QUADROTOR_KF_BAD_INPUT = -1,      /* an input is outside its range, or not a number */

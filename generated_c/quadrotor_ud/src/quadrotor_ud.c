@@ -243,7 +243,7 @@ static quadrotor_ud_status_t quadrotor_ud_hold_factors(float factors[78])
 
     for (uint32_t i = 0U; i < 12U; i++)
     {
-        float variance = factors[at];
+        float part = factors[at] / highest[i]; /* of the ceiling: the variance itself may be beyond all numbers */
         uint32_t weight = at;
 
         if (!((factors[at] >= 0.0f) == true))
@@ -255,12 +255,12 @@ static quadrotor_ud_status_t quadrotor_ud_hold_factors(float factors[78])
             const float u = factors[at + (j - i)];
 
             weight = weight + ((12U + 1U) - j);
-            variance = variance + (u * (u * factors[weight]));
+            part = part + (u * (u * (factors[weight] / highest[i])));
         }
         scale[i] = 1.0f;
-        if (variance > highest[i])
+        if (part > 1.0f)
         {
-            scale[i] = sqrtf(highest[i] / variance);
+            scale[i] = sqrtf(1.0f / part);
             above = true;
         }
         at = at + (12U - i);
