@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import shutil
+import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -289,8 +290,9 @@ def write_library(text: CText, folder: Path) -> None:
 
 
 def _knows(compiler: Compiler, flag: str, folder: Path) -> bool:
-    (folder / "nothing.c").write_text("typedef int nothing;\n")
-    return _said_nothing("", compiler, ["-Werror", flag, "-fsyntax-only", "nothing.c"], folder).passed
+    with tempfile.TemporaryDirectory(dir=folder) as aside:  # a block may have any name
+        (Path(aside) / "empty.c").write_text("typedef int nothing;\n")
+        return _said_nothing("", compiler, ["-Werror", flag, "-fsyntax-only", "empty.c"], Path(aside)).passed
 
 
 def _said_nothing(name: str, compiler: Compiler, flags: Sequence[str], folder: Path) -> CheckResult:

@@ -14,6 +14,9 @@ from plantc.regenerate import EXAMPLES
 
 FLOAT = emit(pendulum_ekf, "float")
 
+PROVED = [(block, precision) for block, precision in EXAMPLES if block.name != "quadrotor_kf"]
+"""CI's time is short: the linear filter, of which the update is that of the extended one, is left to `check --prove`."""
+
 
 def controlled():
     """The pendulum's filter and a feedback whose command comes back to it one step late."""
@@ -86,7 +89,7 @@ def test_a_composition_in_a_composition_has_the_tasks_of_both():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("block", "precision"), EXAMPLES, ids=[block.name for block, _ in EXAMPLES])
+@pytest.mark.parametrize(("block", "precision"), PROVED, ids=[block.name for block, _ in PROVED])
 def test_no_sequence_of_calls_takes_the_memory_out_of_its_ranges(needs, block, precision):
     needs("frama-c")
     found = prove(block, emit(block, precision))
