@@ -481,7 +481,7 @@ def test_check_of_what_was_just_exported(exported, plantc):
     assert said.status == 0, said.err
     answer = one_object(said)
     assert answer["changed"] == answer["missing"] == []
-    assert "as the model gives it, no check failed, 1 of 5 could not judge" in said.summary
+    assert "as the model gives it, no check failed, 1 of 6 could not judge" in said.summary
     assert contents(exported[1]) == before
 
 
