@@ -804,20 +804,25 @@ class Lockstep:
             return 0.0
         view, base = found[0]
         same = self._all_statuses(probe.entry, base)
-        center = flatten(base.memory if where == "memory" else base.outputs)[name].astype(float)
-        size = self._size(probe, where, name, center, scales)
         near = [item for item in self._nearby(probe, view) if self._all_statuses(probe.entry, item) == same]
         if not near:
             return math.inf  # whichever way, a rounding away it has another status: this is a switch
+        # a call is ill-conditioned as a whole: one gain moves the estimate and its covariance
+        fields = {(where, name)} | {
+            ("memory", key) for key, value in flatten(base.memory).items() if value.dtype.kind == "f"
+        }
         largest = 0.0
-        for answer in near:
-            value = flatten(answer.memory if where == "memory" else answer.outputs)[name].astype(float)
-            with np.errstate(all="ignore"):
-                gap = np.abs(value - center)
-                if name in self.angles:
-                    gap = np.abs(gap - 2 * np.pi * np.round(gap / (2 * np.pi)))
-                gap = gap / size
-            largest = max(largest, float(np.max(np.where(np.isfinite(gap), gap, 0.0))))
+        for place, field_name in sorted(fields):
+            center = flatten(base.memory if place == "memory" else base.outputs)[field_name].astype(float)
+            size = self._size(probe, place, field_name, center, scales)
+            for answer in near:
+                value = flatten(answer.memory if place == "memory" else answer.outputs)[field_name].astype(float)
+                with np.errstate(all="ignore"):
+                    gap = np.abs(value - center)
+                    if field_name in self.angles:
+                        gap = np.abs(gap - 2 * np.pi * np.round(gap / (2 * np.pi)))
+                    gap = gap / size
+                largest = max(largest, float(np.max(np.where(np.isfinite(gap), gap, 0.0))))
         return largest
 
     def _size(self, probe: Probe, where: str, name: str, value: Any, scales: Mapping[str, Any]) -> Any:
