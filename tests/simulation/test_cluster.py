@@ -1,7 +1,6 @@
 """A Dask cluster of two processes gives the same bytes as this process, also when a worker is killed half way."""
 
 import contextlib
-import importlib.util
 import os
 import re
 import signal
@@ -114,9 +113,8 @@ def test_without_dask_a_sentence_says_what_to_install(tank, monkeypatch):
 
 
 @pytest.mark.filterwarnings("default")
-def test_a_scheduler_that_does_not_answer_is_said(tank, monkeypatch):
-    if importlib.util.find_spec("distributed") is None:
-        pytest.skip("distributed is not installed")
+def test_a_scheduler_that_does_not_answer_is_said(tank, monkeypatch, needs):
+    needs("python:distributed")
     monkeypatch.setattr(sys.modules["plantc.simulation.cluster"], "PATIENCE", "1s")
     with pytest.raises(ClusterError, match=r"no Dask scheduler answers at dask://127\.0\.0\.1:9 "):
         monte_carlo(tank, runs=1, steps=1, on="dask://127.0.0.1:9")
