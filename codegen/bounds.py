@@ -28,6 +28,10 @@ class Unknown:
 
 Bound = int | Unknown
 
+STACK_SMASHED = "__stack_chk_fail"
+"""What a hardened compiler calls where a frame is no longer whole. It ends the program: what stands behind the call is
+another function, and what it costs is nobody's concern."""
+
 
 class _NoBound(Exception):  # noqa: N818
     """Carries the reason out of a recursion."""
@@ -330,6 +334,9 @@ class Analysis:
         after = [item.next] if item.kind in ("plain", "call") or item.conditional else []
         if item.kind in ("return", "trap"):
             leaving.add(item.address)
+        elif item.kind == "call" and item.target == STACK_SMASHED:
+            leaving.add(item.address)
+            return []
         elif item.kind == "table":
             return self._table(item, items)
         elif item.kind == "call":

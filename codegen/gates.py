@@ -75,8 +75,12 @@ def allowed_symbols(text: CText, machine: str) -> set[str]:
     return names
 
 
-PLAIN = ("-O0", "-fno-optimize-sibling-calls", "-fno-jump-tables", "-fstack-usage")
-"""Flags of a build as a debugger wants it: what `-O2` hides (a recursion made a loop, say) is there to be seen."""
+PLAIN = (
+    *("-O0", "-fno-optimize-sibling-calls", "-fno-jump-tables", "-fstack-usage"),
+    *("-fno-stack-protector", "-fno-sanitize=all"),
+)
+"""Flags of a build as a debugger wants it: what `-O2` hides (a recursion made a loop, say) is there to be seen, and
+nothing that a compiler adds unasked where it does not optimise (the zig wheel does)."""
 
 ROOM_WARNINGS = ("-Wvla", "-Walloca")
 """Warnings of stack that is taken at run time, as far as a compiler knows them."""

@@ -295,6 +295,23 @@ void grows(uint32_t n)
 """
 
 
+def test_behind_a_smashed_stack_stands_another_function(tmp_path, needs):
+    # a hardened compiler's call does not return: read on, it would give a function the loops of the next
+    needs("gcc")
+    source = (
+        "int guarded(const volatile int *x) { volatile int y[8]; y[*x & 7] = *x; return y[0]; }\n"
+        "int turning(const volatile int *x)\n{\n    int y = 0;\n"
+        "    for (int i = 0; i < 9; i++)\n    {\n        y += *x;\n    }\n    return y;\n}\n"
+    )
+    (tmp_path / "two.c").write_text(source)
+    command = ["gcc", "-O1", "-fstack-protector-all", "-fcf-protection=none", "-c", "two.c", "-o", "two.o"]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    image = read_image(tmp_path / "two.o")
+    assert "__stack_chk_fail" in image.undefined
+    analysis = Analysis(image)
+    assert (analysis.cycles("guarded"), analysis.cycles("turning")) == (0, 1)
+
+
 @pytest.mark.parametrize("target", ["host", *CROSS])
 def test_what_cannot_be_bounded_says_why(target, tmp_path, needs):
     toolchain = find_toolchain(TARGETS[target])
