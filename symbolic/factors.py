@@ -32,7 +32,7 @@ def root_of(packed: Array, packing: Packing | int) -> Array:
     packing = Packing(packing) if isinstance(packing, int) else packing
     table = packing.upper(packed)
     weights = np.sqrt(np.maximum(np.diag(table), 0.0))
-    return (np.triu(table, 1) + np.eye(packing.size)) * weights
+    return np.asarray((np.triu(table, 1) + np.eye(packing.size)) * weights)
 
 
 def covariance_of(packed: Array, packing: Packing | int) -> Array:

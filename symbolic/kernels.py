@@ -195,7 +195,7 @@ class RowUpdate(Packed):
         innovation = innovation.named("e")
         # n = -K: each element is then a product and a sum, one instruction less than with a difference
         minus = (-per_variance).named("minus_per_s")
-        loss = [None if item is None else (item * minus).named(f"n_{k}") for k, item in enumerate(cross)]
+        loss: list[Any] = [None if item is None else (item * minus).named(f"n_{k}") for k, item in enumerate(cross)]
         minus_innovation = (-innovation).named("minus_e")
         nis = innovation * (innovation * per_variance)
         delta = self._corrected(values, [_product(item, minus_innovation) for item in loss])
@@ -262,10 +262,12 @@ class JosephRowUpdate(RowUpdate):
         if self.row > 0:
             innovation = innovation - _total([value * values[4][j] for j, value in terms])
         innovation = innovation.named("e")
-        gain = [None if item is None else (item * per_variance).named(f"k_{k}") for k, item in enumerate(cross)]
+        gain: list[Any] = [
+            None if item is None else (item * per_variance).named(f"k_{k}") for k, item in enumerate(cross)
+        ]
         # element (i, j) of A is p_ij - k_i (h P)_j; of A h', (P h')_i - k_i h P h'
         spread = variance - r_i
-        kept = [None if item is None else item - gain[k] * spread for k, item in enumerate(cross)]
+        kept: list[Any] = [None if item is None else item - gain[k] * spread for k, item in enumerate(cross)]
         noisy = [_product(item, r_i) for item in gain]
         updated = []
         for i, j in self.layout.pairs:
