@@ -79,11 +79,11 @@ class Gain:
 
     def source(self) -> str:
         """Return a hash of what was asked for: same question, same hash, on any machine."""
-        parts: list[Any] = [self.method, self.dt, _digits(self.A), _digits(self.B)]
+        parts: list[Any] = [self.method, self.dt, digits_of(self.A), digits_of(self.B)]
         if self.poles is not None:
-            parts.append(_digits(np.vstack([self.poles.real, self.poles.imag])))
+            parts.append(digits_of(np.vstack([self.poles.real, self.poles.imag])))
         if self.cost is not None:
-            parts += [_digits(item) for item in self.cost]
+            parts += [digits_of(item) for item in self.cost]
         return hashlib.sha256(repr(parts).encode()).hexdigest()[:16]
 
     def properties(self, gain: Any = None) -> dict[str, tuple[float, float]]:
@@ -662,7 +662,7 @@ def _dust(matrix: Array) -> float:
     return 1e-12 * float(np.max(np.abs(matrix), initial=0.0))
 
 
-def _digits(matrix: Array) -> list[Any]:
+def digits_of(matrix: Array) -> list[Any]:
     """Return integers that tell matrices apart to 9 digits of their largest element, the same on any machine.
 
     The odd offsets keep numbers that people write (1, 1/1024) away from where the last bit decides the rounding.

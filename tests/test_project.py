@@ -146,6 +146,7 @@ DOCTESTED = [
     "plantc.symbolic.composition",
     "plantc.symbolic.controllers",
     "plantc.symbolic.design",
+    "plantc.symbolic.regulator_equations",
 ]
 
 
