@@ -1,7 +1,8 @@
 """Four estimators in the loop of a quadrotor, done again: Meda-Campana (IEEE Access 2018), section IV, its Figs. 2-4 and Table 1.
 
-`plantc study meda2018` runs it. What the paper leaves open is fixed in specs/meda2018.md: the order of the loop (section 7), the
-protocols A, B, C and M (section 8) and the metrics (section 9). What does not come out as printed is said on the page, with the cause.
+`plantc study meda2018` runs it. What the paper leaves open is fixed in specs/meda2018.md: the order of the loop (section 7),
+the protocols A, B, C and M (section 8) and the metrics (section 9). What does not come out as printed is said on the page,
+with the cause.
 """
 
 from __future__ import annotations
@@ -9,8 +10,9 @@ from __future__ import annotations
 import hashlib
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
+from itertools import pairwise
 from math import exp, nan, pi
 from typing import TYPE_CHECKING, Any
 
@@ -40,7 +42,7 @@ from plantc.symbolic.controllers import state_feedback
 from plantc.symbolic.design import Gain, closed_loop_eigenvalues, place, place_chains
 from plantc.symbolic.estimators import extended_kalman_filter, kalman_filter
 from plantc.symbolic.james_stein import james_stein_estimator
-from plantc.symbolic.plant import LOWEST_VARIANCE
+from plantc.symbolic.plant import LOWEST_VARIANCE, Symbol
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -50,7 +52,8 @@ Progress = Callable[[str, int, int], None]
 NAME = "meda2018"
 TITLE = "Kalman and James-Stein estimators in the loop of a quadrotor"
 SOURCE = (
-    "J. A. Meda-Campana, On the Estimation and Control of Nonlinear Systems With Parametric Uncertainties and Noisy Outputs, "
+    "J. A. Meda-Campana, On the Estimation and Control of Nonlinear Systems With Parametric Uncertainties and Noisy "
+    "Outputs, "
     "IEEE Access 2018, doi 10.1109/ACCESS.2018.2846483"
 )
 
@@ -59,6 +62,7 @@ ESTIMATORS = ("KF", "EKF", "JSSE", "JSSE-M")
 NOISES = (0.01, 0.02, 0.05, 0.08, 0.1, 0.12, 0.15, 0.2, 0.3, 0.5, 1.0)
 GAMMAS = (0.0, 0.005, 0.01, 0.015, 0.02, 0.03, 0.04, 0.06, 0.1, 0.15)
 LIMITS = {"x": 10.0, "y": 10.0, "z": 10.0, "roll": pi / 2, "pitch": pi / 2}
+TINY = (0.01, 0.05, 0.1)
 POLES = np.arange(84, 96) / 100
 TABLE_1 = {"KF": 0.15871633, "EKF": 0.86501887, "JSSE": 0.26077425, "JSSE-M": 0.2632239}
 MIX = np.array([[1, 1, 1, 1], [-1, -1, 1, 1], [-1, 1, 1, -1], [1, -1, 1, -1]])
@@ -74,6 +78,11 @@ CERTAIN = LOWEST_VARIANCE
 
 # ---------------------------------------------------------------------------------------------------------------------
 # The loops
+
+
+def _value(constant: Symbol) -> float:
+    (value,) = constant.signal.default or ()
+    return value
 
 
 def _quadrotor(name: str, *, weighed: bool) -> Plant:
@@ -98,9 +107,9 @@ def _quadrotor(name: str, *, weighed: bool) -> Plant:
         signal = constant.signal
         before.append(constant)
         if weighed and signal.name == "mass":
-            after.append(plant.parameter("mass", signal.default[0], unit=signal.unit, range=(0.5, 2.0)))
+            after.append(plant.parameter("mass", _value(constant), unit=signal.unit, range=(0.5, 2.0)))
         else:
-            after.append(plant.constant(signal.name, signal.default[0], unit=signal.unit))
+            after.append(plant.constant(signal.name, _value(constant), unit=signal.unit))
     rates = ca.substitute(quadrotor.dynamics_expression(fold=False), vertcat(*before), vertcat(*after))
     plant.dynamics({state: rates[i] for i, state in enumerate(states)})
     plant.sensor("pose", vertcat(*states), variance=0.1**2)
@@ -226,7 +235,9 @@ def evaluate(case: Case, runs: int, seed: int, *, on: str | None = None, jobs: i
 
 
 def without_noise(deviation: float, runs: int, seed: int, *, on: str | None = None, jobs: int | None = None) -> Result:
-    """Run the loop with the printed gain, the true state fed back and no noise, 400 steps, from x_o + U(-deviation, deviation)."""
+    """Run the loop with the printed gain, the true state fed back and no noise, 400 steps, from x_o + U(-deviation, "
+    "deviation).
+    """
     case = Case("none", 0.0)
     still = {"pose_noise": 0.0} | {f"{name}_noise": 0.0 for name in STATES}
     settings = case.settings() | {"start": Start(deviation, known=True), "std": still}
@@ -354,7 +365,7 @@ def gain_facts(draws: int = 400) -> dict[str, float]:
     near = [radius(printed_gain + half_unit * rng.uniform(-1, 1, printed_gain.shape)) for _ in range(draws)]
     robust = place(system, POLES)
     # mean thrust that an error of unit variance in every state adds, (k_b / m) tr(K K') (specs/meda2018.md, section 4)
-    thrust = {constant.signal.name: constant.signal.default[0] for constant in quadrotor.constants}["thrust_factor"]
+    thrust = {constant.signal.name: _value(constant) for constant in quadrotor.constants}["thrust_factor"]
     return {
         "radius of the printed gain": radius(printed_gain),
         "least radius within its rounding": min(near),
@@ -397,20 +408,26 @@ def _of_model(facts: Mapping[str, float]) -> list[Comparison]:
         ),
         Comparison(
             "eq. 44: the eigenvalues of A - B F' are 0.84, 0.85 ... 0.95",
-            f"the largest has modulus {radius:.4f}; with any other rounding of the printed digits that was tried {within[0]:.4f} to "
+            f"the largest has modulus {radius:.4f}; with any other rounding of the printed digits that was tried "
+            f"{within[0]:.4f} to "
             f"{within[1]:.4f}",
             "reproduces" if abs(radius - wanted) < 5e-3 else "shown wrong",
-            "The stiffness of each axis is a difference of large elements (roll: 766 + 122 - 711 - 59 = 118), so that two or three "
+            "The stiffness of each axis is a difference of large elements (roll: 766 + 122 - 711 - 59 = 118), so that "
+            "two or three "
             "printed digits move the eigenvalues. The printed F is stable, but slower and oscillating.",
         ),
         Comparison(
             "eq. 44: F by robust pole placement [13]",
-            f"robust placement of the same eigenvalues gives a gain of norm {facts['norm of a robust placement']:.4g}; the printed "
+            f"robust placement of the same eigenvalues gives a gain of norm {facts['norm of a robust placement']:.4g}; "
+            "the printed "
             f"one has {facts['norm of the printed gain']:.4g}, the decoupled one {facts['norm of the decoupled gain']:.4g}",
             "cannot be compared",
-            "With four inputs the gain for a set of eigenvalues is not unique. It matters: an error of variance r^2 in each fed-back "
-            f"state adds a mean thrust of {facts['thrust of the printed gain']:.4g} r^2 m/s^2 with the printed gain, and of "
-            f"{facts['thrust of the decoupled gain']:.3g} r^2 with the decoupled one. That, not a filter, ends the loops at large r.",
+            "With four inputs the gain for a set of eigenvalues is not unique. It matters: an error of variance r^2 in "
+            "each fed-back "
+            f"state adds a mean thrust of {facts['thrust of the printed gain']:.4g} r^2 m/s^2 with the printed gain, and "
+            "of "
+            f"{facts['thrust of the decoupled gain']:.3g} r^2 with the decoupled one. That, not a filter, ends the loops "
+            "at large r.",
         ),
     ]  # fmt: skip
 
@@ -437,43 +454,53 @@ def _of_figures(rows: Rows) -> list[Comparison]:
     first = [r for r in small if _best(rows, "A", r, "mse") == "JSSE-M"]
     here, ekf = rows[Case("JSSE-M", 0.1)], rows[Case("EKF", 0.1)]
     literal, ekf_c = rows[Case("JSSE-M", 0.1, "C")], rows[Case("EKF", 0.1, "C")]
+    tiny = [f"r = {r:g}: weight at most {exp(-GAMMA / r**2):.2g}, kept {_kept(rows, 'JSSE-M', r)}" for r in TINY]
     weight, blind = exp(-GAMMA / 0.1**2), _share(rows, "JSSE-M", 0.1) < 0.5 <= _share(rows, "EKF", 0.1)
     return [
         Comparison(
             "Figs. 2 and 3: the states stay near the set point with each of the four estimators (r = 0.1)",
             f"kept: KF {_kept(rows, 'KF', 0.1)}, EKF {_kept(rows, 'EKF', 0.1)}, JSSE {_kept(rows, 'JSSE', 0.1)}, JSSE-M "
-            f"{_kept(rows, 'JSSE-M', 0.1)} runs under protocol A; JSSE-M {_kept(rows, 'JSSE-M', 0.1, 'C')} under protocol C",
+            f"{_kept(rows, 'JSSE-M', 0.1)} runs under protocol A; JSSE-M {_kept(rows, 'JSSE-M', 0.1, 'C')} under protocol "
+            "C",
             "cannot be compared",
-            "The curves of the figures are not readable from the text that is available; whether they could look as described "
+            "The curves of the figures are not readable from the text that is available; whether they could look as "
+            "described "
             "depends on the beginning and the process noise, which the paper leaves open.",
         ),
         Comparison(
             "Fig. 4: the MSE of eq. 45 of JSSE-M is the least",
-            f"so at {len(first)} of {len(small)} values of r up to 0.1; at r = 0.1 JSSE-M {here.mse:.3g}, EKF {ekf.mse:.3g}",
+            f"so at {len(first)} of {len(small)} values of r up to 0.1; at r = 0.1 JSSE-M {here.mse:.3g}, EKF "
+            f"{ekf.mse:.3g}",
             "reproduces" if len(first) == len(small) else "does not reproduce",
-            "Eq. 45 compares the estimate with the set point. At these r JSSE-M gives the reading no weight, so that its estimate runs to "
+            "Eq. 45 compares the estimate with the set point. At these r JSSE-M gives the reading no weight, so that its "
+            "estimate runs to "
             "the set point by itself, whatever the vehicle does.",
         ),
         Comparison(
             "eq. 45 is the error of the estimates",
-            f"JSSE-M at r = 0.1: MSE {here.mse:.3g}, mean square of true state less estimate {here.err:.3g}; EKF: {ekf.mse:.3g} and "
+            f"JSSE-M at r = 0.1: MSE {here.mse:.3g}, mean square of true state less estimate {here.err:.3g}; EKF: "
+            f"{ekf.mse:.3g} and "
             f"{ekf.err:.3g}",
             "shown wrong" if here.mse < ekf.mse and here.err > ekf.err else "reproduces",
             "x_o - x+ holds no true state. An estimator that answers x_o and ignores every reading has MSE 0.",
         ),
         Comparison(
             "Section IV: JSSE-M is a good choice to estimate the states for control",
-            f"r = 0.1, protocol A: JSSE-M keeps {_kept(rows, 'JSSE-M', 0.1)} runs, EKF {_kept(rows, 'EKF', 0.1)}; protocol C: "
+            f"r = 0.1, protocol A: JSSE-M keeps {_kept(rows, 'JSSE-M', 0.1)} runs, EKF {_kept(rows, 'EKF', 0.1)}; "
+            "protocol C: "
             f"REG {literal.reg:.3g} against {ekf_c.reg:.3g}",
             "shown wrong" if blind else "reproduces",
-            f"The weight on a reading is at most exp(-gamma / r^2) = {weight:.3g}: the loop is open. Under protocol C, the only reading of "
-            "the paper in which JSSE-M keeps the vehicle, it has nearly no process noise and starts at the truth, and drifts.",
+            f"The weight on a reading is at most exp(-gamma / r^2) = {weight:.3g}: the loop is open. Under protocol C, "
+            "the only reading of "
+            "the paper in which JSSE-M keeps the vehicle, it has nearly no process noise and starts at the truth, and "
+            "drifts.",
         ),
         Comparison(
             "eq. 25: where r is small the stability that the controller provides helps to tolerate big changes in JSSE-M",
-            "; ".join(f"r = {r:g}: weight at most {exp(-GAMMA / r**2):.2g}, kept {_kept(rows, 'JSSE-M', r)}" for r in (0.01, 0.05, 0.1)),
-            "shown wrong" if all(_share(rows, "JSSE-M", r) < 0.5 for r in (0.01, 0.05, 0.1)) else "reproduces",
-            "It is the other way round: the smaller r, and so the better the reading, the less of it is used; then the controller "
+"; ".join(tiny),
+            "shown wrong" if all(_share(rows, "JSSE-M", r) < 0.5 for r in TINY) else "reproduces",
+            "It is the other way round: the smaller r, and so the better the reading, the less of it is used; then the "
+            "controller "
             "stabilises the estimate, and nothing the vehicle. gamma has the unit of r^2.",
         ),
     ]  # fmt: skip
@@ -499,7 +526,8 @@ def _of_claims(rows: Rows) -> list[Comparison]:
         ),
         Comparison(
             "Section V: JSSE only where the measurement noise is small",
-            f"from r = {first['JSSE']} on it keeps less than 90 % of the runs (KF from {first['KF']}, EKF from {first['EKF']})",
+            f"from r = {first['JSSE']} on it keeps less than 90 % of the runs (KF from {first['KF']}, EKF from "
+            f"{first['EKF']})",
             "reproduces" if lost["JSSE"] and lost["JSSE"][0] <= 0.12 else "does not reproduce",
             "Its weight on the reading is about 0.32 at every r while the loop lives, so that its error grows as r^2.",
         ),
@@ -510,9 +538,11 @@ def _of_claims(rows: Rows) -> list[Comparison]:
         ),
         Comparison(
             "Section V: so does the EKF",
-            f"NEES {ekf.nees:.4g} at r = 0.1 and {ekf_large.nees:.4g} at r = 0.3, where it keeps {_kept(rows, 'EKF', 0.3)} runs",
+            f"NEES {ekf.nees:.4g} at r = 0.1 and {ekf_large.nees:.4g} at r = 0.3, where it keeps "
+            f"{_kept(rows, 'EKF', 0.3)} runs",
             "does not reproduce" if steady else "reproduces",
-            "Its error grows with r, as any must; it stays consistent, and has the least error to the truth while the model is exact.",
+            "Its error grows with r, as any must; it stays consistent, and has the least error to the truth while the "
+            "model is exact.",
         ),
         Comparison(
             "Section II-D: for large r the performance of JSSE-M tends to that of JSSE",
@@ -533,7 +563,8 @@ def _of_claims(rows: Rows) -> list[Comparison]:
             f"with 5 % more mass, r = 0.05: error to the truth JSSE {jsse.err:.3g}, EKF {ekf_m.err:.3g}; JSSE-M keeps "
             f"{jssem.kept} of {jssem.kept + jssem.lost + jssem.frozen} runs",
             "cannot be compared",
-            "The paper simulates no uncertainty; protocol M is this study's own. Here the plain James-Stein estimator is of use: a wrong "
+            "The paper simulates no uncertainty; protocol M is this study's own. Here the plain James-Stein estimator is "
+            "of use: a wrong "
             "model makes D2 large, and the weight of the reading with it. The modified form undoes that.",
         ),
     ]  # fmt: skip
@@ -544,7 +575,8 @@ def _of_times(seconds: Mapping[str, float]) -> list[Comparison]:
     pairs = (("EKF", "KF"), ("JSSE", "KF"), ("JSSE-M", "KF"), ("JSSE-M", "JSSE"))
     why = {
         "EKF": "",
-        "JSSE": "Table 1 is of MATLAB, which recomputes eqs. 23 and 24 in every step; in this C they are constants, found at the "
+        "JSSE": "Table 1 is of MATLAB, which recomputes eqs. 23 and 24 in every step; in this C they are constants, "
+        "found at the "
         "export, and no covariance is propagated.",
     }
     made = []
@@ -583,8 +615,10 @@ def _sweep_table(rows: Rows, protocol: str, gain: str) -> StudyTable:
             (case.r, case.estimator, *counts, row.mse, row.mse_se, row.err, row.err_se, row.reg, row.nees)
         )  # fmt: skip
     note = (
-        f"{PROTOCOLS[protocol]}. MSE (45): set point less estimate, which ranks nothing by itself; ERR: true state less estimate; REG: "
-        "true state less set point; sums over the states of squares, mean over the steps. Means over the kept runs with their standard "
+        f"{PROTOCOLS[protocol]}. MSE (45): set point less estimate, which ranks nothing by itself; ERR: true state less "
+        "estimate; REG: "
+        "true state less set point; sums over the states of squares, mean over the steps. Means over the kept runs with "
+        "their standard "
         "errors; medians over the finite runs where none was kept. NEES: 12 is consistent."
     )
     return StudyTable(name, SWEEPS[protocol, gain], columns, tuple(lines), note)
@@ -612,7 +646,8 @@ def _small_tables(rows: Rows, free: Mapping[float, Result], facts: Mapping[str, 
         ),
         StudyTable(
             "gain", "The gains", ("fact", "value"), tuple(facts.items()),
-            "Radius: largest modulus of an eigenvalue of A - B K. Thrust: mean acceleration that an error of unit variance in every state adds.",
+            "Radius: largest modulus of an eigenvalue of A - B K. Thrust: mean acceleration that an error of unit "
+            "variance in every state adds.",
         ),
     ]  # fmt: skip
 
@@ -624,7 +659,8 @@ def _times_table(seconds: Mapping[str, float]) -> StudyTable:
     )
     columns = ("estimator", "printed, s", "ratio to KF", "here, s", "ratio to KF ")
     note = (
-        "2000 steps of the estimator alone. Printed: MATLAB r2016b on an i7-4720HQ. Here: C in double precision, one call for all steps, "
+        "2000 steps of the estimator alone. Printed: MATLAB r2016b on an i7-4720HQ. Here: C in double precision, one "
+        "call for all steps, "
         "the quickest of nine."
     )
     return StudyTable("times", "Table 1: processing time", columns, rows, note, measured=True)
@@ -665,6 +701,7 @@ def _states_figure(histories: Mapping[str, History], which: Sequence[int]) -> Fi
 
 def _noise_figure(rows: Rows, shown: Iterable[tuple[str, str]]) -> Figure:
     """Draw MSE, ERR and the kept share over r, one line of panels for each sweep."""
+    from matplotlib.ticker import LogLocator
     from plantc.codegen.figures import INK, MUTED, SERIES, blank, styled
 
     sweeps = list(shown)
@@ -693,9 +730,12 @@ def _noise_figure(rows: Rows, shown: Iterable[tuple[str, str]]) -> Figure:
                 )
                 axes.tick_params(length=0, labelcolor=MUTED)
                 axes.grid(axis="y")
-            line[0].set_yscale("log")
-            line[1].set_yscale("log")
+                if axes is not line[2]:
+                    axes.set_yscale("log")
+                    axes.yaxis.set_major_locator(LogLocator(numticks=5))
+                axes.minorticks_off()
             line[2].set_ylim(-0.05, 1.05)
+            line[2].set_yticks([0, 0.5, 1])
         for axes in grid[-1]:
             axes.set_xlabel("r")
         figure.legend(loc="outside upper left", ncols=4, handlelength=1.2)
@@ -718,7 +758,8 @@ def _pictures(rows: Rows, seed: int) -> list[Picture]:
                 Picture(
                     f"states-{number}-{protocol.lower()}",
                     f"Fig. {number}, protocol {protocol}: the {first} six states, r = 0.1",
-                    f"True states of run 0 with each estimator; the axes are cut where a vehicle is lost. Distance from the set point "
+                    "True states of run 0 with each estimator; the axes are cut where a vehicle is lost. Distance from "
+                    "the set point "
                     f"after 50 s: {ends}.",
                     _states_figure(histories, states),
                 )
@@ -727,7 +768,8 @@ def _pictures(rows: Rows, seed: int) -> list[Picture]:
     made.append(
         Picture(
             "noise-a", "Fig. 4: MSE over r, protocol A",
-            f"Left what the paper plots, in the middle the error to the true state, right the share of runs that are kept. {cut}",
+            "Left what the paper plots, in the middle the error to the true state, right the share of runs that are "
+            f"kept. {cut}",
             _noise_figure(rows, [("A", "printed")]),
         )
     )  # fmt: skip
@@ -748,9 +790,11 @@ def _summary(rows: Rows) -> str:
     jssem, ekf = rows[Case("JSSE-M", 0.1)], rows[Case("EKF", 0.1)]
     biased, ekf_m = rows[Case("JSSE", 0.05, "M")], rows[Case("EKF", 0.05, "M")]
     return (
-        f"By the paper's mean square (eq. 45) its modified James-Stein estimator is the best at r = 0.1: {jssem.mse:.3g} against {ekf.mse:.3g} "
+        f"By the paper's mean square (eq. 45) its modified James-Stein estimator is the best at r = 0.1: {jssem.mse:.3g} "
+        f"against {ekf.mse:.3g} "
         f"of the EKF. Against the true state its error is {jssem.err:.3g}, that of the EKF {ekf.err:.3g}: it keeps "
-        f"{_kept(rows, 'JSSE-M', 0.1)} runs, the EKF {_kept(rows, 'EKF', 0.1)}. The plain James-Stein estimator is of use where the model "
+        f"{_kept(rows, 'JSSE-M', 0.1)} runs, the EKF {_kept(rows, 'EKF', 0.1)}. The plain James-Stein estimator is of use "
+        "where the model "
         f"is wrong: with 5 % more mass its error is {biased.err:.3g}, that of the EKF {ekf_m.err:.3g} (r = 0.05)."
     )  # fmt: skip
 
@@ -804,7 +848,8 @@ def study(
         "Seed": seed,
         "Steps of a run": f"{STEPS}, of 1/40 s",
         "Kept": "at every step |x|, |y|, |z - 30| up to 10 m and |roll|, |pitch| up to pi/2",
-        "Noise": "process noise of standard deviation 0.001 in each state and step; the same random numbers for all estimators",
+        "Noise": "process noise of standard deviation 0.001 in each state and step; the same random numbers for all "
+        "estimators",
         **{f"Protocol {key}": text for key, text in PROTOCOLS.items()},
     }
     result.comparisons = [*_of_model(facts), *_of_figures(rows), *_of_claims(rows), *_of_times(seconds)]
@@ -816,5 +861,5 @@ def study(
     result.pictures = _pictures(rows, seed)
     clock["page"] = time.perf_counter()
     names = list(clock)
-    result.seconds = {b: clock[b] - clock[a] for a, b in zip(names, names[1:], strict=False)}
+    result.seconds = {b: clock[b] - clock[a] for a, b in pairwise(names)}
     return result

@@ -591,10 +591,9 @@ def study_command(
         files = write_study(found, out, force=force)
         for item in found.comparisons:
             session.say(f"  {item.verdict}: {item.published}: {item.ours}")
-        counts = found.counts()
-        result = {"folder": str(files[0].parent), "page": str(files[0]), "verdicts": counts}
-        said = ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count)
-        session.finish({**result, **found.results(), "evidence": found.evidence()}, f"done: {files[0]}: {said}", GOOD)
+        result = {"folder": str(files[0].parent), "page": str(files[0]), "verdicts": found.counts()}
+        both = {"results": found.results(), "evidence": found.evidence()}
+        session.finish({**result, **both}, f"done: {found.verdicts()}: {files[0]}", GOOD)
 
     session.run(body)
 

@@ -145,6 +145,18 @@ class StudyResult:
         """Return how many comparisons have each verdict."""
         return {verdict: sum(item.verdict == verdict for item in self.comparisons) for verdict in _CLASSES}
 
+    def verdicts(self) -> str:
+        """Return the same in words."""
+        counts = self.counts()
+        words = {
+            "reproduces": "reproduce",
+            "does not reproduce": "do not reproduce",
+            "shown wrong": "are shown wrong",
+            "cannot be compared": "cannot be compared",
+        }
+        said = ", ".join(f"{count} {words[verdict]}" for verdict, count in counts.items() if count)
+        return f"of {len(self.comparisons)} printed statements {said}"
+
     def results(self) -> dict[str, Any]:
         """Return all that is the same in each run on machines of one kind, for JSON: no number that is not finite."""
         return {
