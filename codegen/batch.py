@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import ctypes
+import hashlib
+import time
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -53,6 +56,11 @@ class BatchText:
     takes_params: bool
     takes_inputs: bool
     gives_outputs: bool
+
+    @cached_property
+    def digest(self) -> str:
+        """Hash of the C: the same for the same text."""
+        return hashlib.sha256(repr(sorted(self.sources.items())).encode()).hexdigest()
 
 
 def batch_text(block: Block, entry: str = "step", precision: str = "double", *, mathematics: str = "own") -> BatchText:
@@ -119,6 +127,24 @@ class BatchAnswer:
     outputs: Record
 
 
+@dataclass(frozen=True, eq=False)
+class Room:
+    """Arrays for runs of some steps, one run after the other: to ask the system for them anew takes as long as the C.
+
+    Attributes
+    ----------
+    inputs, memory, outputs : numpy record array (steps,)
+        What goes in, and what comes out.
+    statuses : int array (steps + 1,)
+        Of each step.
+    """
+
+    inputs: Record
+    memory: Record
+    outputs: Record
+    statuses: NDArray[np.int32]
+
+
 class Batch:
     """The compiled batch. A run is one C call, in which the interpreter lock is released.
 
@@ -149,6 +175,11 @@ class Batch:
         """Return input records of zeros, one for each step."""
         return np.zeros(steps, dtype=self.text.inputs)
 
+    def room(self, steps: int) -> Room:
+        """Return arrays for runs of some steps; the inputs are zero."""
+        memory, outputs = np.empty(steps, dtype=self.text.memory), np.zeros(steps, dtype=self.text.outputs)
+        return Room(self.inputs(steps), memory, outputs, np.zeros(steps + 1, dtype=np.int32))
+
     def init(self, params: Record | None = None) -> Record:
         """Return the memory after `init`.
 
@@ -165,7 +196,14 @@ class Batch:
             raise ValueError(f"{self.text.name}: init refused the parameters ({status.name})")
         return memory
 
-    def run(self, inputs: Record, params: Record | None = None, memory: Record | None = None) -> BatchAnswer:
+    def run(
+        self,
+        inputs: Record,
+        params: Record | None = None,
+        memory: Record | None = None,
+        *,
+        room: Room | None = None,
+    ) -> BatchAnswer:
         """Run the entry once for each record of inputs, until one is refused.
 
         Parameters
@@ -176,12 +214,50 @@ class Batch:
             See `params`; default the block's.
         memory : numpy record, optional
             Where to start; default what `init` gives. It is left as it is.
+        room : Room, optional
+            Where the answer is put, of as many steps; it lasts until the next run there. Default new arrays.
 
         Raises
         ------
         ValueError
-            If inputs, parameters or memory have another layout than the C.
+            If inputs, parameters or memory have another layout than the C, or the room is not of this batch and length.
         """
+        state, given = self._accepted(inputs, params, memory)
+        count = len(inputs)
+        place = room or self.room(count)
+        steps = self._call(state, given, inputs, place)
+        last = Status(int(place.statuses[steps if steps < count else count - 1])) if count else Status.OK
+        return BatchAnswer(steps, last, place.statuses[:steps], place.memory[:steps], place.outputs[:steps])
+
+    def seconds(self, inputs: Record, params: Record | None = None, *, repeats: int = 5) -> list[float]:
+        """Return how long the C call takes, each time from the same start: nothing is allocated while the clock runs.
+
+        Parameters
+        ----------
+        inputs, params : numpy record
+            As for `run`.
+        repeats : int
+            How many times; one more goes before them.
+
+        Raises
+        ------
+        ValueError
+            As for `run`; or if a step is refused.
+        """
+        state, given = self._accepted(inputs, params, None)
+        room = self.room(len(inputs))
+        times = []
+        for _ in range(repeats + 1):
+            own = state.copy()
+            started = time.perf_counter()
+            steps = self._call(own, given, inputs, room)
+            times.append(time.perf_counter() - started)
+            if steps < len(inputs):
+                raise ValueError(f"{self.text.name}: step {steps + 1} was refused; time inputs that are accepted")
+        return times[1:]
+
+    def _accepted(self, inputs: Record, params: Record | None, memory: Record | None) -> tuple[Record, Record]:
+        """Return memory to start from, and parameters, if all is laid out as the C takes it."""
         text = self.text
         given = text.params if params is None else params
         state = (self.init(given) if memory is None else memory).copy()
@@ -192,17 +268,20 @@ class Batch:
                 raise ValueError(
                     f"{text.name}: the {what} are not laid out as the C takes them; make them with this batch"
                 )
-        count = len(inputs)
-        after, outputs = np.empty(count, dtype=text.memory), np.zeros(count, dtype=text.outputs)
-        statuses = np.zeros(count + 1, dtype=np.int32)
+        return state, given
+
+    def _call(self, state: Record, given: Record, inputs: Record, room: Room) -> int:
+        """Call the C; return the steps that were accepted."""
+        text = self.text
+        if len(room.memory) != len(inputs) or room.memory.dtype != text.memory or room.outputs.dtype != text.outputs:
+            raise ValueError(f"{text.name}: the room is not for these steps of this batch; make it with this batch")
         arguments = [
             state,
             *([given] if text.takes_params else []),
             *([inputs] if text.takes_inputs else []),
-            *([outputs] if text.gives_outputs else []),
-            after,
-            statuses,
+            *([room.outputs] if text.gives_outputs else []),
+            room.memory,
+            room.statuses,
         ]
-        steps = int(self._run(*[item.ctypes.data_as(ctypes.c_void_p) for item in arguments], ctypes.c_int32(count)))
-        last = Status(int(statuses[steps if steps < count else count - 1])) if count else Status.OK
-        return BatchAnswer(steps, last, statuses[:steps], after[:steps], outputs[:steps])
+        pointers = [item.ctypes.data_as(ctypes.c_void_p) for item in arguments]
+        return int(self._run(*pointers, ctypes.c_int32(len(inputs))))

@@ -62,7 +62,7 @@ def svg_of(figure: Figure, name: str, title: str, description: str) -> str:
         What it is, and what it shows, for those who do not see it.
     """
     stream = io.StringIO()
-    with _styled({"svg.hashsalt": name}):
+    with styled({"svg.hashsalt": name}):
         figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
     text = stream.getvalue()
     text = text[text.index("<svg") :]
@@ -92,14 +92,15 @@ def _escaped(text: str) -> str:
     return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
 
 
-def _styled(more: Mapping[str, Any] | None = None) -> AbstractContextManager[None]:
+def styled(more: Mapping[str, Any] | None = None) -> AbstractContextManager[None]:
     """Return a context in which Matplotlib draws as the page has it."""
     import matplotlib as mpl
 
     return mpl.rc_context(_STYLE | dict(more or {}))
 
 
-def _figure(height: float) -> Figure:
+def blank(height: float) -> Figure:
+    """Return an empty figure as wide as the page, of a height in inches."""
     from matplotlib.figure import Figure
 
     return Figure(figsize=(_WIDTH, height), layout="constrained")
@@ -124,9 +125,9 @@ def _bars(axes: Axes, labels: Sequence[str], parts: Mapping[str, Sequence[float]
 
 def operations(counts: Mapping[str, Mapping[str, int]]) -> Figure:
     """Draw operations by kind for each entry."""
-    with _styled():
+    with styled():
         entries = [name for name, row in counts.items() if sum(row.values())]
-        figure = _figure(0.8 + 0.28 * len(entries))
+        figure = blank(0.8 + 0.28 * len(entries))
         axes = figure.subplots()
         parts = {word: [counts[name].get(word, 0) for name in entries] for word in OPERATION_KINDS}
         parts["function"] = [
@@ -140,10 +141,10 @@ def operations(counts: Mapping[str, Mapping[str, int]]) -> Figure:
 
 def grouped(rows: Mapping[str, Mapping[str, float]], bounds: Mapping[str, Mapping[str, float]], unit: str) -> Figure:
     """Draw a number for each entry on each target, and a bound as a tick where there is one; either may be missing."""
-    with _styled():
+    with styled():
         given = [*rows.values(), *bounds.values()]
         entries = list(dict.fromkeys(entry for row in given for entry in row))
-        figure = _figure(0.8 + len(entries) * (0.16 + 0.15 * len(rows)))
+        figure = blank(0.8 + len(entries) * (0.16 + 0.15 * len(rows)))
         axes = figure.subplots()
         step = 0.8 / max(1, len(rows))
         for k, (target, row) in enumerate(rows.items()):
@@ -174,8 +175,8 @@ def grouped(rows: Mapping[str, Mapping[str, float]], bounds: Mapping[str, Mappin
 
 def errors(checks: Sequence[Mapping[str, Any]]) -> Figure:
     """Draw the worst difference of each check beside its limit, on a logarithmic scale."""
-    with _styled():
-        figure = _figure(0.7 + 0.24 * len(checks))
+    with styled():
+        figure = blank(0.7 + 0.24 * len(checks))
         axes = figure.subplots()
         at = np.arange(len(checks))
         floor = 1e-18
@@ -196,8 +197,8 @@ def errors(checks: Sequence[Mapping[str, Any]]) -> Figure:
 
 def per_call(differences: Mapping[str, Sequence[float]], limit: float) -> Figure:
     """Draw the largest difference of each call along the nominal trace."""
-    with _styled():
-        figure = _figure(2.1)
+    with styled():
+        figure = blank(2.1)
         axes = figure.subplots()
         for k, (name, values) in enumerate(differences.items()):
             shown = np.maximum(np.asarray(values, dtype=float), 1e-18)
@@ -216,9 +217,9 @@ def per_call(differences: Mapping[str, Sequence[float]], limit: float) -> Figure
 
 def statuses(counts: Mapping[str, int]) -> Figure:
     """Draw how often each status was returned."""
-    with _styled():
+    with styled():
         rows = sorted(counts.items(), key=lambda row: (-row[1], row[0]))
-        figure = _figure(0.5 + 0.22 * len(rows))
+        figure = blank(0.5 + 0.22 * len(rows))
         axes = figure.subplots()
         _bars(axes, [name for name, _ in rows], {"calls": [count for _, count in rows]}, "calls of the cross-check")
         return figure
@@ -226,10 +227,10 @@ def statuses(counts: Mapping[str, int]) -> Figure:
 
 def memory(fields: Mapping[str, tuple[Any, Any | None, str]]) -> Figure:
     """Draw fields of the memory over the nominal trace, each with a band of three sigma where sigma is known."""
-    with _styled():
+    with styled():
         columns = 2 if len(fields) > 1 else 1
         rows = (len(fields) + columns - 1) // columns
-        figure = _figure(0.3 + 1.25 * rows)
+        figure = blank(0.3 + 1.25 * rows)
         grid = figure.subplots(rows, columns, squeeze=False)
         for axes in grid.ravel()[len(fields) :]:
             axes.set_visible(False)

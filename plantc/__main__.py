@@ -1,4 +1,4 @@
-"""The command line: derive, export, check, audit, demo."""
+"""The command line: derive, export, check, audit, study, demo."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ import numpy as np
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-from . import models, parallel
+from . import models, parallel, studies
 from .codegen.audit import AUDITS, AuditResult, audit_folder
 from .codegen.emit import generator_version
 from .codegen.exported import tool
@@ -553,6 +553,49 @@ def audit_text(found: AuditResult) -> list[str]:
     if found.folder.changed:
         lines.append(f"  changed since the export: {', '.join(found.folder.changed)}")
     return lines
+
+
+@main.command(name="study")
+@click.argument("name")
+@click.option("--runs", type=click.IntRange(1, 100_000), default=20, show_default=True, help="Runs of each case.")
+@click.option(
+    "--seed", type=click.IntRange(0, 2**64 - 1), default=2018, show_default=True, help="Key of the random streams."
+)
+@click.option(
+    "--out", type=click.Path(path_type=Path), default=Path("studies"), show_default=True, help="Output folder."
+)
+@click.option("--on", default=None, metavar="ADDRESS", help="Run on a cluster: dask://HOST:PORT, a Dask scheduler.")
+@click.option("--force", is_flag=True, help="Write over files of an earlier run even if they were changed since.")
+@_common
+def study_command(
+    name: str, runs: int, seed: int, out: Path, on: str | None, force: bool, as_json: bool, debug: bool
+) -> None:
+    """Do a published result again: figures, tables and one page into OUT/NAME/. NAME: meda2018."""
+    session = Session(as_json, debug)
+
+    def body() -> NoReturn:
+        from .simulation import check_study_folder, write_study
+
+        made = studies.find(name)
+        check_study_folder(name, out, force=force)
+        with session.progress() as display:
+            task = display.add_task(name, total=None)
+            found = made(
+                runs,
+                seed,
+                on=on,
+                progress=lambda what, done, total: display.update(
+                    task, description=f"{name}: {what}", completed=done, total=total
+                ),
+            )
+        files = write_study(found, out, force=force)
+        for item in found.comparisons:
+            session.say(f"  {item.verdict}: {item.published}: {item.ours}")
+        result = {"folder": str(files[0].parent), "page": str(files[0]), "verdicts": found.counts()}
+        both = {"results": found.results(), "evidence": found.evidence()}
+        session.finish({**result, **both}, f"done: {found.verdicts()}: {files[0]}", GOOD)
+
+    session.run(body)
 
 
 @main.command(name="demo")

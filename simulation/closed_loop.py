@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ctypes
+import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -10,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..codegen.batch import Batch, BatchText, batch_text
+from ..codegen.batch import Batch, BatchText, Room, batch_text
 from ..codegen.layout import flatten
 from ..codegen.views import View
 from ..symbolic.analysis import OperatingPoint
@@ -297,9 +299,9 @@ def history_of(
         stacked(memory, layout.estimate) if layout.estimate else None,
         _triangles(stacked(memory, (layout.spread,)), layout.packing) if layout.packing else None,
         layout.spread.endswith("factors"),
-        {name: np.asarray(outputs(field), dtype=float).ravel() for name, field in layout.nis.items()},
+        {name: np.array(outputs(field), dtype=float).ravel() for name, field in layout.nis.items()},
         stacked(outputs, layout.commands),
-        statuses,
+        statuses.copy(),
         asked,
         refused,
     )
@@ -313,6 +315,19 @@ def _triangles(stored: Array, packing: Packing) -> Array:
     answer = np.zeros((len(stored), whole.count))
     answer[:, [whole.at(i, j) for i, j in packing.pairs]] = stored
     return answer
+
+
+_rooms = threading.local()
+
+
+def _room(batch: Batch, steps: int) -> Room:
+    """Return arrays for a run, its inputs zero; each thread keeps those of its last batch."""
+    kept: tuple[Batch, int, Room] | None = getattr(_rooms, "last", None)
+    if kept is None or kept[0] is not batch or kept[1] != steps:
+        kept = (batch, steps, batch.room(steps))
+        _rooms.last = kept
+    ctypes.memset(kept[2].inputs.ctypes.data, 0, kept[2].inputs.nbytes)
+    return kept[2]
 
 
 def run_batch(
@@ -341,13 +356,14 @@ def run_batch(
     held : dict, optional
         `ClosedLoop.held`.
     """
-    inputs = batch.inputs(steps)
+    room = _room(batch, steps)
+    inputs = room.inputs
     for name, value in (held or {}).items():
         inputs[name] = value
     for name, values in noise.items():
         target = inputs[f"plant_{name}"]
         target[...] = np.reshape(values, target.shape)
-    answer = batch.run(inputs, batch.params(dict(params or {})))
+    answer = batch.run(inputs, batch.params(dict(params or {})), room=room)
     refused = answer.status.name if answer.steps < steps else ""
 
     def column(records: NDArray[Any]) -> Columns:

@@ -107,6 +107,8 @@ def deviation(states: Sequence[StatePlace], value: Array, origin: Array) -> Arra
     origin : array (steps, n) or (n,)
         What they are compared with.
     """
+    if all(state.kind == "plain" for state in states):
+        return np.asarray(value - origin)
     origin = np.broadcast_to(origin, value.shape)
     pieces, start = [], 0
     for state in states:

@@ -5,7 +5,6 @@ A run depends on (seed, run index) and on nothing else; rows are kept by run ind
 
 from __future__ import annotations
 
-import hashlib
 import os
 from collections.abc import Callable, Generator, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -27,7 +26,7 @@ from ..symbolic.block import Block
 from ..symbolic.errors import ModelError
 from .closed_loop import ClosedLoop, Layout, run_batch
 from .cluster import on_cluster
-from .metrics import Judgement, StatePlace, judge
+from .metrics import History, Judgement, StatePlace, judge
 from .noise import CONVENTION, Channel, channels, draw, stream
 from .results import FORMAT, Result, ResultError, row_line
 
@@ -100,16 +99,15 @@ _compiling = Lock()
 
 def _batch_of(text: BatchText) -> Batch:
     """Return the compiled batch of a text; each process compiles it once."""
-    digest = hashlib.sha256(repr(sorted(text.sources.items())).encode()).hexdigest()
     with _compiling:
-        if digest not in _batches:
+        if text.digest not in _batches:
             if text.version != generator_version():
                 raise ResultError(
                     f"the C was written by plantc {text.version}, this worker has {generator_version()}; install the same version "
                     "everywhere"
                 )
-            _batches[digest] = Batch(text)
-        return _batches[digest]
+            _batches[text.digest] = Batch(text)
+        return _batches[text.digest]
 
 
 def run_one(work: Work, run: int, start: Mapping[str, Array]) -> Judgement:
@@ -124,14 +122,48 @@ def run_one(work: Work, run: int, start: Mapping[str, Array]) -> Judgement:
     start : dict
         Parameter -> value, of this run's start.
     """
-    batch = _batch_of(work.text)
-    noise = {channel.name: draw(channel, work.seed, run, work.steps) for channel in work.channels}
-    params = {**work.params, **start}
     try:
-        history = run_batch(batch, work.layout, noise, work.steps, params=params, held=work.held)
+        history = _history(work, run, start)
     except ValueError:  # the parameters were accepted without the start: it is the start that is out of range
         return Judgement("frozen", "BAD_PARAM", 0, 0)
     return judge(history, work.limits)
+
+
+def _history(work: Work, run: int, start: Mapping[str, Array]) -> History:
+    noise = {channel.name: draw(channel, work.seed, run, work.steps) for channel in work.channels}
+    params = {**work.params, **start}
+    return run_batch(_batch_of(work.text), work.layout, noise, work.steps, params=params, held=work.held)
+
+
+def replay(
+    loop: ClosedLoop,
+    run: int,
+    *,
+    steps: int = 2000,
+    seed: int = 0,
+    start: Start | None = None,
+    std: Mapping[str, Any] | None = None,
+    covariance: Mapping[str, Any] | None = None,
+    params: Mapping[str, Any] | None = None,
+) -> History:
+    """Run one run of a Monte-Carlo again and return all that happened in it.
+
+    Parameters
+    ----------
+    loop : ClosedLoop
+        What `closed_loop` gave.
+    run : int
+        Its index.
+    steps, seed, start, std, covariance, params
+        As for `monte_carlo`.
+
+    Raises
+    ------
+    ModelError, ValueError
+        As by `monte_carlo`; ValueError also if the start of this run is out of range.
+    """
+    work = _work(loop, steps, seed, std, covariance, params, None)
+    return _history(work, run, _start_of(loop, start or Start(), seed, run, work.params))
 
 
 def monte_carlo(

@@ -7,8 +7,11 @@ and a run is the same whatever ran before it, in whichever thread, on whichever 
 from __future__ import annotations
 
 import hashlib
+from collections import OrderedDict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from threading import Lock
 from typing import Any
 
 import numpy as np
@@ -43,6 +46,12 @@ class Channel:
     name: str
     factor: Array
     convention: str
+
+    @cached_property
+    def scales(self) -> Array | None:
+        """The diagonal of the factor, if it is diagonal."""
+        diagonal = np.diag(self.factor)
+        return None if np.any(self.factor - np.diag(diagonal)) else diagonal
 
 
 def stream(seed: int, run: int, name: str) -> np.random.Generator:
@@ -128,12 +137,44 @@ def _factor(name: str, matrix: Array, size: int) -> Array:
         raise ModelError(f"the covariance of {name!r} is not positive definite; mend the matrix") from None
 
 
+class _Recent:
+    """The last standard normal numbers that were drawn, up to a number of bytes: many loops meet the same noise.
+
+    What is drawn depends on the key alone, so whether it was drawn before changes no result.
+    """
+
+    def __init__(self, most: int):
+        self.most, self.bytes = most, 0
+        self.arrays: OrderedDict[tuple[Any, ...], Array] = OrderedDict()
+        self.lock = Lock()
+
+    def numbers(self, seed: int, run: int, name: str, shape: tuple[int, int]) -> Array:
+        """Return the first numbers of a stream, read-only."""
+        key = (seed, run, name, shape)
+        with self.lock:
+            if key in self.arrays:
+                self.arrays.move_to_end(key)
+                return self.arrays[key]
+        drawn = stream(seed, run, name).standard_normal(shape)
+        drawn.flags.writeable = False
+        with self.lock:
+            if key not in self.arrays:
+                self.arrays[key] = drawn
+                self.bytes += drawn.nbytes
+            while self.bytes > self.most:
+                self.bytes -= self.arrays.popitem(last=False)[1].nbytes
+        return drawn
+
+
+_recent = _Recent(64 * 1024 * 1024)
+
+
 def draw(channel: Channel, seed: int, run: int, steps: int) -> Array:
     """Return the noise of a run, (steps, size); of a longer run it is the beginning."""
     size = len(channel.factor)
-    numbers = stream(seed, run, channel.name).standard_normal((steps, size))
-    if not np.any(channel.factor - np.diag(np.diag(channel.factor))):
-        return np.asarray(numbers * np.diag(channel.factor))
+    numbers = _recent.numbers(seed, run, channel.name, (steps, size))
+    if channel.scales is not None:
+        return np.asarray(numbers * channel.scales)
     answer = np.zeros((steps, size))
     for i in range(size):  # in a fixed order: a matrix product's depends on the machine
         for j in range(i + 1):

@@ -25,6 +25,7 @@ def keyed_well():
 def test_a_stream_is_keyed_by_seed_run_and_name(monkeypatch):
     assert keyed_well()
     right = stream
+    monkeypatch.setattr(module, "_recent", module._Recent(0))  # which would hide what is planted
     shared = np.random.Generator(np.random.Philox(1))
     planted = [
         lambda seed, run, name: shared,  # one stream, in the order of the calls
@@ -36,6 +37,19 @@ def test_a_stream_is_keyed_by_seed_run_and_name(monkeypatch):
     for fault in planted:
         monkeypatch.setattr(module, "stream", fault)
         assert not keyed_well()
+
+
+def test_what_is_kept_of_earlier_draws_changes_no_number_and_is_bounded(monkeypatch):
+    channel = Channel("w", np.eye(2), "")
+    fresh = draw(channel, 1, 5, 50)
+    recent = module._Recent(3 * fresh.nbytes)
+    monkeypatch.setattr(module, "_recent", recent)
+    for run in (5, 6, 7, 8, 5, 8, 8):
+        np.testing.assert_array_equal(draw(channel, 1, run, 50), stream(1, run, "w").standard_normal((50, 2)))
+        assert recent.bytes == sum(array.nbytes for array in recent.arrays.values()) <= 3 * fresh.nbytes
+    assert [key[1] for key in recent.arrays] == [7, 5, 8]
+    draw(channel, 1, 8, 50)[:] = 0.0  # what is handed out is the caller's own
+    np.testing.assert_array_equal(draw(channel, 1, 5, 50), fresh)
 
 
 def test_the_numbers_of_a_stream_do_not_change_with_a_release_of_plantc():
