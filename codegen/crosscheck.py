@@ -33,6 +33,9 @@ LARGEST_SHARE_AT_SWITCHES = 0.05
 ROUNDING_GROWTH = 100.0
 """Units in the last place by which a memory is moved to see whether rounding may turn one status into another."""
 
+IMPLAUSIBLE = ("adversarial", "crafted")
+"""Traces of calls made as bad as they can be, among them candidates for vectors (which ship none near a switch)."""
+
 LARGEST_GROWTH = 10.0
 """A difference is excused up to this many times what one unit in the last place of memory and inputs causes."""
 
@@ -787,7 +790,7 @@ class Lockstep:
     ) -> Excuse | None:
         """Return an excuse if a difference is no larger than rounding of the memory itself causes, times a factor."""
         explained = self._explained(probe, where, name, scales)
-        if math.isinf(explained) and probe.trace != "adversarial":
+        if math.isinf(explained) and probe.trace not in IMPLAUSIBLE:
             return None  # that a call is nearly refused bounds nothing, and no plausible call may be
         found = Excuse(difference, explained, probe, f"{where} {name}")
         return found if difference <= LARGEST_GROWTH * explained else None

@@ -149,7 +149,8 @@ def choose_vectors(block: Block, precision: str, check: CrossCheck, native: Nati
 
     def shipped(probe: Probe) -> Probe:
         memory, inputs, given = (table.rounded(item) for item in (probe.memory, probe.inputs, probe.params))
-        return Probe("vectors", 0, probe.entry, memory, inputs, given)
+        trace = probe.trace if probe.trace == "crafted" else "vectors"
+        return Probe(trace, 0, probe.entry, memory, inputs, given)
 
     def run(probe: Probe) -> Answer:
         return _answer(view, probe, 0.0)

@@ -18,17 +18,34 @@ from .codegen.style import Precision
 from .codegen.targets import TARGETS, installed_targets
 from .examples.attitude_ekf import attitude_ekf
 from .examples.pendulum import pendulum_ekf
+from .examples.quadrotor_controllers import (
+    quadrotor_ekf_controller,
+    quadrotor_jsse_controller,
+    quadrotor_jssem_controller,
+    quadrotor_kf_controller,
+)
 from .examples.quadrotor_ekf import quadrotor_ekf, quadrotor_kf
 from .examples.quadrotor_ud import quadrotor_ud
 from .symbolic import Block
 
-EXAMPLES: list[tuple[Block, str]] = [
+PARTS: list[tuple[Block, str]] = [
     (pendulum_ekf, "float"),
     (quadrotor_ekf, "double"),
     (quadrotor_kf, "double"),
     (attitude_ekf, "float"),
     (quadrotor_ud, "float"),
 ]
+"""Block and precision of what CI also audits and proves: filters by themselves, all kernels among them."""
+
+CONTROLLERS: list[tuple[Block, str]] = [
+    (quadrotor_kf_controller, "float"),
+    (quadrotor_ekf_controller, "float"),
+    (quadrotor_jsse_controller, "float"),
+    (quadrotor_jssem_controller, "float"),
+]
+"""Compositions of a filter and a feedback. CI looks for drift only: `plantc audit` and `check --prove` do the rest."""
+
+EXAMPLES = PARTS + CONTROLLERS
 """Block and precision of everything under `generated_c/`."""
 
 

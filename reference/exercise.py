@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Generator, Mapping
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from .discretisation import expected, increment, measurement_noise, process_cova
 from .model import Array, Model, SensorModel, packed, split_state, stack
 
 Call = tuple[str, dict[str, Any]]
+Calls = Generator[Call, Mapping[str, Any] | None, None]
 
 
 class Exercise:
@@ -49,43 +50,52 @@ class Exercise:
         # an unstable plant is not followed to where the last digit of a state is as large as its sigma
         self.reach = 100 * (1 + np.abs(self.x0)) + 10 * self.per_state(np.sqrt(self.variances))
 
-    def calls(self, rng: np.random.Generator, steps: int) -> Iterator[Call]:
-        """Yield `steps` calls, (entry, inputs); the first is "init", as is any after which the truth starts anew."""
+    def calls(self, rng: np.random.Generator, steps: int) -> Calls:
+        """Yield `steps` calls, (entry, inputs); the first is "init", as is any after which the truth starts anew.
+
+        Whoever closes a loop around the filter sends the inputs that the truth is moved by next, as name -> array; from
+        then on every call is a step.
+        """
         truth, drive, started = self.near(rng), rng.normal(size=len(self.u0)), False
+        told: Mapping[str, Any] | None = None
         for _ in range(steps):
             if not started:
-                yield "init", {}
+                told = yield "init", {}
                 started = True
                 continue
             drive = 0.9 * drive + np.sqrt(1 - 0.9**2) * rng.normal(size=len(drive))
             u = self.input(drive)
             kind = rng.uniform()
+            if told is not None:
+                applied = self.named_inputs(u)
+                applied |= {name: np.ravel(told[name]) for name in applied if name in told}
+                u, kind = np.concatenate([np.zeros(0), *applied.values()]), 1.0
             if kind < 0.05:
-                yield "inflate", {"factor": np.array([rng.uniform(1.2, 1.8)])}
+                told = yield "inflate", {"factor": np.array([rng.uniform(1.2, 1.8)])}
                 continue
             inputs = self.named_inputs(u)
             readings = {sensor.name: self.reading(rng, sensor, truth, u) for sensor in self.model.sensors}
             if kind < 0.15 and readings:
                 sensor = self.model.sensors[int(rng.integers(len(self.model.sensors)))]
                 needed = {name: inputs[name] for name in sensor.inputs}
-                yield f"update_{sensor.name}", {sensor.name: readings[sensor.name], **needed}
+                told = yield f"update_{sensor.name}", {sensor.name: readings[sensor.name], **needed}
                 continue
             dt = self.time_step(rng)
             following = self.moved(rng, truth, u, dt)
             if following is None:
                 truth, started = self.near(rng), True
-                yield "init", {}
+                told = yield "init", {}
                 continue
             truth = following
             if isinstance(self.model.dt, tuple):
                 inputs["dt"] = np.array([dt])
             if kind < 0.25:
-                yield "predict", inputs
+                told = yield "predict", inputs
                 continue
             for sensor in self.model.sensors:
                 inputs[f"has_{sensor.name}"] = np.array([1 if rng.uniform() < 0.85 else 0])
                 inputs[sensor.name] = self.reading(rng, sensor, truth, u)
-            yield "step", inputs
+            told = yield "step", inputs
 
     def memory(self, rng: np.random.Generator) -> dict[str, Array]:
         """Return a random memory: a state near x0, any covariance up to the initial one, small counters."""

@@ -7,7 +7,8 @@ Manton, V. Krishnamurthy, H. V. Poor, "James-Stein state filtering algorithms", 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import contextlib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -23,7 +24,7 @@ from .discretisation import (
     wrapped,
     wrapped_angle,
 )
-from .exercise import Exercise
+from .exercise import Calls, Exercise
 from .kalman import Refused, Status
 from .model import (
     Array,
@@ -88,6 +89,8 @@ def weight(distance_squared: Array, r: Any, c: float, gamma: Any = None, *, posi
         s = np.where(lost > 0, 1 - lost / D2, np.where(D2 == 0, 1, 1 + 0 * D2))
         if positive_part:
             s = np.where(lost >= D2, np.where(lost > 0, 0, 1), s)
+        if c > 0:
+            s = np.where(np.isnan(lost) & (D2 > 0), np.nan, s)  # an r that is no number weighs nothing
         if gamma is not None:
             square = np.square(r)
             if square < SMALLEST_SQUARE:
@@ -363,11 +366,14 @@ class JamesSteinExercise:
     def __init__(self, exercise: Exercise):
         self.exercise = exercise
 
-    def calls(self, rng: np.random.Generator, steps: int) -> Iterator[tuple[str, dict[str, Any]]]:
-        """Yield calls, (entry, inputs); the first is "init"."""
-        for entry, inputs in self.exercise.calls(rng, steps):
-            if entry != "inflate":
-                yield entry, inputs
+    def calls(self, rng: np.random.Generator, steps: int) -> Calls:
+        """Yield calls, (entry, inputs); the first is "init". What is sent goes to the exercise."""
+        stream, told = self.exercise.calls(rng, steps), None
+        with contextlib.suppress(StopIteration):
+            while True:
+                entry, inputs = stream.send(told)
+                if entry != "inflate":
+                    told = yield entry, inputs
 
     def memory(self, rng: np.random.Generator) -> dict[str, Array]:
         """Return a state near the nominal one."""

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import copy
 import hashlib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -286,8 +287,15 @@ class _Composer:
         if not given:
             return None
         block, parts = self.block, self.parts
+        late: dict[str, dict[str, str]] = {}
+        for (part, name), (_, wire) in self.wires.items():
+            if wire is not None:
+                late.setdefault(part, {})[name] = f"delay_{part}_{name}"
 
         def calls(rng: Any, steps: int) -> Iterator[tuple[str, dict[str, Any]]]:
+            if late and block.oracle is not None:
+                yield from _closed_loop(block, given, late, rng, steps)
+                return
             streams = {part: _steps_of(scenario, rng) for part, scenario in given.items()}
             yield "init", {}
             for _ in range(steps):
@@ -323,6 +331,58 @@ class _Composer:
             return answer
 
         return Scenario(calls, memory, scales)
+
+
+def _closed_loop(
+    block: Block, given: dict[str, Scenario], late: dict[str, dict[str, str]], rng: Any, steps: int
+) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yield calls in which what a part reads answers to what the delayed wires bring back to it.
+
+    A controller's readings would else come from a plant that it does not move: soon no command would suffice.
+    """
+    assert block.oracle is not None
+    params = {signal.name: np.array(signal.default, dtype=float) for signal in block.param_signals_flat()}
+    signals = block.entries["step"].inputs
+    owners = {item.name: next(part for part in block.parts if item.name.startswith(f"{part}_")) for item in signals}
+    streams: dict[str, _Stream] = {}
+    memory: dict[str, Any] = {}
+    drawn: dict[str, dict[str, Any] | None] = {"": None}
+    for _ in range(steps + 1):
+        if None in drawn.values():  # the beginning, or what a part follows has started anew
+            streams = {part: _Stream(given[part], rng) for part in given if part in owners.values()}
+            memory = dict(block.oracle.call("init", {}, {}, params, np.float64)[1])
+            yield "init", {}
+        else:
+            inputs = {}
+            for signal in signals:
+                part = owners[signal.name]
+                own, known = signal.name.removeprefix(f"{part}_"), drawn.get(part) or {}
+                inputs[signal.name] = np.atleast_1d(known[own] if own in known else _drawn(rng, signal))
+            status, after, _ = block.oracle.call("step", memory, inputs, params, np.float64)
+            if status >= 0:
+                memory |= after
+            yield "step", inputs
+        drawn = {
+            part: stream.step({name: memory[field] for name, field in late.get(part, {}).items()})
+            for part, stream in streams.items()
+        }
+
+
+class _Stream:
+    """The steps of a part's scenario."""
+
+    def __init__(self, scenario: Scenario, rng: Any):
+        self.calls = scenario.calls(rng, 200)
+        next(self.calls, None)  # init
+
+    def step(self, told: Mapping[str, Any]) -> dict[str, Any] | None:
+        """Return the inputs of the next step, told what some of them will be; None where the part starts anew."""
+        with contextlib.suppress(StopIteration):
+            while True:
+                entry, inputs = self.calls.send(told) if isinstance(self.calls, Generator) else next(self.calls)
+                if entry in ("init", "step"):
+                    return inputs if entry == "step" else None
+        return None
 
 
 def _steps_of(scenario: Scenario, rng: Any) -> Iterator[dict[str, Any]]:

@@ -14,7 +14,7 @@ from plantc.codegen.report import report_html
 from plantc.codegen.sanitizers import audit_sanitizers, audit_uninitialised
 from plantc.examples.pendulum import pendulum_ekf
 
-from plantc.regenerate import EXAMPLES
+from plantc.regenerate import PARTS
 
 OWN = ["misra", "gcc-analyzer", "clang-analyzer", "sanitizers", "uninitialised", "libfuzzer"]
 """The audits that are tested here; those of proofs have tests of their own."""
@@ -231,7 +231,7 @@ def test_what_is_no_exported_folder_is_refused(folder, tmp_path):
 def test_every_example_passes_every_audit_with_ten_million_calls(tmp_path, needs):
     needs("cppcheck", "gcc", "clang")
     calls = 0
-    for block, *rest in EXAMPLES:
+    for block, *rest in PARTS:
         precision = next(item for item in rest if isinstance(item, str))
         write_folder(tmp_path / block.name, build_files(block, precision))
         size = sum(field["size"] for field in open_folder(tmp_path / block.name).manifest["memory"])

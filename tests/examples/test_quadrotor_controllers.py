@@ -1,8 +1,11 @@
 """Estimator and printed state feedback in one block: the closed loop of specs/meda2018.md, section 10.1(e), in C."""
 
+from dataclasses import replace
+
 import casadi as ca
 import numpy as np
 import pytest
+from plantc.codegen.crosscheck import make_views
 from plantc.codegen.layout import flatten
 from plantc.examples import quadrotor_controllers as controllers
 from plantc.examples.quadrotor_controllers import feedback, printed_gain
@@ -10,7 +13,7 @@ from plantc.examples.quadrotor_ekf import hover, sampled
 from plantc.examples.quadrotor_james_stein import quadrotor_jsse
 from plantc.symbolic.discretisation import transition
 
-from plantc import NativeView, ReferenceView, connect, wires
+from plantc import NativeView, ReferenceView, connect, cross_check, emit, wires
 
 NAMES = [state.signal.name for state in sampled.states]
 ROTORS = [symbol.signal.name for symbol in sampled.inputs]
@@ -132,3 +135,21 @@ def test_a_first_command_that_is_not_the_one_applied_is_seen():
     own = OWN["jsse"] | {f"delay_estimator_{name}_0": 0.9 * hover for name in ROTORS}
     x, _, _ = closed_loop(ReferenceView(controller("jsse")), own)
     assert not np.allclose(x, numbers(ENDS["jsse"][0]), rtol=0, atol=1e-7)
+
+
+OLD, APPLIED = "before->delay_estimator_rotor_1,", "after->delay_estimator_rotor_1 = out->feedback.rotor_1;"
+IN_C = {
+    "the speed of another rotor comes back": (OLD, OLD.replace("rotor_1", "rotor_2")),
+    "hover comes back": (OLD, "212.718305490559,"),
+    "what comes back is never written": (APPLIED, APPLIED.replace("out->feedback.", "before->delay_estimator_")),
+}
+
+
+@pytest.mark.parametrize("fault", IN_C)
+def test_a_wrong_wire_in_the_c_fails_the_cross_check(fault):
+    block, text = controller("jsse"), emit(controller("jsse"))
+    right, wrong = IN_C[fault]
+    assert text.source.count(right) == 1
+    native = NativeView(block, text=replace(text, source=text.source.replace(right, wrong)))
+    found = cross_check(block, views=make_views(block, "double", native), steps=20)
+    assert "native = reference" in {result.name for result in found.failures}

@@ -39,6 +39,12 @@ def test_the_core_of_section_10_1a(r):
     np.testing.assert_allclose(modified.state, state_modified, **DIGITS)
 
 
+def test_an_r_that_is_no_number_weighs_nothing():
+    assert np.isnan(weight(np.float64(2.0), np.nan, 1.0))
+    assert np.isnan(weight(np.float64(2.0), np.nan, 1.0, 0.1))
+    assert weight(np.float64(2.0), np.nan, 0.0) == 1  # no shrinkage: r is not asked
+
+
 @pytest.mark.parametrize("r", [0.0, 0.3, 1.0, 30.0])
 def test_an_effective_dimension_below_two_shrinks_nothing(r):
     made = james_stein(PREDICTION, Y, C2, PI, r)

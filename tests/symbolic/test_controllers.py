@@ -167,10 +167,10 @@ def _coasting():
 # -- with an estimator ------------------------------------------------------------------------------------------------
 
 
-def controller(gain=None, plant=None):
+def controller(gain=None, plant=None, variance=0.01):
     plant = plant or pendulum()
     gain = place(linearise(plant), [0.8, 0.85]) if gain is None else gain
-    ekf = extended_kalman_filter(plant, initial_variance={"angle": 0.01, "rate": 0.1})
+    ekf = extended_kalman_filter(plant, initial_variance={"angle": variance, "rate": 10 * variance})
     feedback = state_feedback(plant, {}, gain, saturate=True, name="feedback")
     lines = {
         **wires("estimator", "feedback", plant.states),
@@ -187,6 +187,21 @@ def test_an_estimator_and_a_feedback_are_one_controller(precision):
     check = cross_check(block, precision, steps=60)
     assert check.passed, failures(check)
     assert check.statuses["OK"] + check.statuses["CLAMPED"] > 80
+
+
+def test_the_nominal_calls_of_a_controller_are_those_of_its_loop():
+    """Planted: without an oracle nobody knows its commands, and what it reads falls over as if there were none."""
+    block = controller(variance=1e-4)  # so upright at first that the motor can hold it
+    assert linearise(pendulum()).eigenvalues().real.max() > 1
+    farthest, restarts = {}, {}
+    for name in ("closed", "open"):
+        calls = list(block.scenario.calls(np.random.default_rng(1), 300))
+        assert calls[0][0] == "init"
+        readings = [abs(float(np.ravel(inputs["estimator_encoder"])[0])) for entry, inputs in calls if entry == "step"]
+        farthest[name], restarts[name] = max(readings), sum(entry == "init" for entry, _ in calls)
+        block.oracle = None
+    assert farthest["closed"] < 0.5 < 1.5 < farthest["open"]
+    assert restarts["closed"] == 2  # a part's scenario has 200 calls
 
 
 def test_the_applied_command_goes_back_to_the_estimator():
