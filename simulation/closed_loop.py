@@ -289,8 +289,13 @@ def history_of(
     steps = len(statuses)
 
     def stacked(columns: Columns, names: tuple[str, ...]) -> Array:
-        pieces = [np.reshape(columns(name), (steps, -1)) for name in names]
-        return np.concatenate([np.zeros((steps, 0)), *pieces], axis=1)
+        pieces = [columns(name).reshape(steps, -1) for name in names]
+        answer = np.empty((steps, sum(piece.shape[1] for piece in pieces)))
+        start = 0
+        for piece in pieces:
+            answer[:, start : start + piece.shape[1]] = piece
+            start += piece.shape[1]
+        return answer
 
     return History(
         layout.states,
