@@ -367,13 +367,16 @@ class CoreWriter:
                 self._line("")
                 self._comment(statement.comment)
                 self._condition_head("if ", statement.condition, "")
+                outer = dict(self.bound)  # a name that one branch gives is not known to the other
                 self._open()
                 self._statements(statement.then)
                 self._close()
+                self.bound = dict(outer)
                 if statement.otherwise:
                     self._open("else")
                     self._statements(statement.otherwise)
                     self._close()
+                    self.bound = outer
             case Raise():
                 self._line(f"status = {self.root}_higher(status, {u}_{statement.status.name});")
                 self.functions.add("higher")
