@@ -146,7 +146,10 @@ DOCTESTED = [
     "plantc.symbolic.composition",
     "plantc.symbolic.controllers",
     "plantc.symbolic.design",
+    "plantc.symbolic.power_series",
     "plantc.symbolic.regulator_equations",
+    "plantc.symbolic.regulator_map",
+    "plantc.symbolic.taylor",
 ]
 
 
