@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib.metadata import PackageNotFoundError, version
+from itertools import groupby
 from typing import Any
 
 import jinja2
@@ -15,7 +16,7 @@ import jinja2
 from ..symbolic.block import Block
 from ..symbolic.errors import ModelError
 from ..symbolic.kernels import AllStatesUpdate
-from ..symbolic.program import Entry, HoldFactors, HoldVariances, packed_index, walk
+from ..symbolic.program import Entry, HoldFactors, HoldVariances, walk
 from ..symbolic.signals import STATUS_TEXT, Kind, Signal, Status
 from .layout import default_text, struct_lines
 from .mathematics import CHOICES, OWN, mathematics_note, mathematics_text
@@ -346,24 +347,31 @@ class _Emitter:
             "upper": self.name.upper(),
             "real": self.precision.name,
             "n": size,
-            "packed": size * (size + 1) // 2,
+            "packed": hold.layout.count,
+            "blocks": bool(hold.layout.blocks),
+            "runs": [
+                {"size": size, "count": len(list(group))}
+                for size, group in groupby(len(block) for block in hold.layout.blocks)
+            ],
             "zero": self.precision.literal(0.0),
             "sqrt": self.precision.function("sqrt"),
             "same": same,
             "limits": [self.precision.literal(item) for item in limits],
-            "floors": [self.precision.literal(item) for item in hold.floor],
-            "ceilings": [self.precision.literal(item) for item in hold.ceiling],
-            "diagonal": [(packed_index(size, i, i), self.precision.literal(item)) for i, item in enumerate(hold.floor)],
+            "floors": [self.precision.literal(hold.floor[i]) for block in hold.layout.parts for i in block],
+            "ceilings": [self.precision.literal(hold.ceiling[i]) for block in hold.layout.parts for i in block],
+            "diagonal": [
+                (at, self.precision.literal(item)) for at, item in zip(hold.layout.diagonal, hold.floor, strict=True)
+            ],
         }
         if isinstance(hold, HoldFactors):
             text = templates().get_template("hold_factors.c.j2").render(**context, one=self.precision.literal(1.0))
             return [
                 *text.rstrip("\n").split("\n"),
-                *bounded_helper(prefix, self.precision, size, hold.floor, certain_factors(hold), "factors"),
+                *bounded_helper(prefix, self.precision, hold.layout, hold.floor, certain_factors(hold), "factors"),
             ]
         text = templates().get_template("hold_variances.c.j2").render(**context)
         return [
-            *text.rstrip("\n").split("\n"), *bounded_helper(prefix, self.precision, size, hold.floor, limits)
+            *text.rstrip("\n").split("\n"), *bounded_helper(prefix, self.precision, hold.layout, hold.floor, limits)
         ]  # fmt: skip
 
 

@@ -66,7 +66,7 @@ class _Tables:
 def _orders(block: Block, path: str = "") -> dict[str, int]:
     """Return memory field -> order, of the packed symmetric matrices whose diagonal is held."""
     found = {
-        path + statement.target.name: statement.size
+        path + statement.target.name: 0 if statement.layout.blocks else statement.size
         for entry in block.entries.values()
         for statement in walk(entry.body)
         if isinstance(statement, HoldVariances)

@@ -13,7 +13,7 @@ import re
 from collections import Counter
 
 from ..symbolic.kernels import SMALLEST_VARIANCE
-from ..symbolic.program import HoldFactors, packed_index, packed_size
+from ..symbolic.program import HoldFactors, Packing, packed_index, packed_size
 from .style import Precision, wrap_line
 
 
@@ -142,7 +142,7 @@ def pair_operations(size: int) -> Counter[str]:
 def bounded_helper(
     prefix: str,
     precision: Precision,
-    size: int,
+    packing: Packing,
     floor: tuple[float, ...],
     limits: tuple[float, ...],
     array: str = "covariance",
@@ -153,8 +153,8 @@ def bounded_helper(
     L / 2k and their sum at least -L / 2, so that none is below -L / 2 - (k - 1) L / 2k > -L. Rounding of the sum is far
     smaller than the L / 2k left. An interval analysis follows that backwards through the sum.
     """
-    real, packed = precision.name, packed_size(size)
-    diagonal = [packed_index(size, i, i) for i in range(size)]
+    real, packed = precision.name, packing.count
+    diagonal = list(packing.diagonal)
     clauses = [
         _true(f"{_element(at, array)} >= {precision.literal(low)}") for at, low in zip(diagonal, floor, strict=True)
     ]
@@ -189,9 +189,7 @@ def certain_factors(hold: HoldFactors) -> tuple[float, ...]:
     most, total = hold.certain()
     groups = -(-hold.size // _LONGEST_SUM)
     own = iter(hold.limits())
-    return tuple(
-        min(next(own), total / groups if i == j else most) for i in range(hold.size) for j in range(i, hold.size)
-    )
+    return tuple(min(next(own), total / groups if i == j else most) for i, j in hold.layout.pairs)
 
 
 def _groups(elements: list[int], limits: tuple[float, ...]) -> list[list[int]]:

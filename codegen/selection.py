@@ -61,7 +61,7 @@ def reachable(block: Block) -> frozenset[Feature]:
             elif isinstance(statement, HoldVariances):
                 wanted.add(("ran", label, trail, CLOSELY))
                 outcomes = [HELD[0], HELD[3], Status.NOT_POSITIVE.name]
-                if statement.size > 1:  # one variance alone has nothing beside it
+                if statement.layout.count > statement.size:  # one variance alone has nothing beside it
                     outcomes += [HELD[1], HELD[2], Status.OVERFLOW.name]
                 wanted |= {("held", label.rpartition(".")[0], outcome) for outcome in outcomes}
             elif isinstance(statement, Call):

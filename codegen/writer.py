@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -55,6 +55,7 @@ _INFIX = {
 _COUNTED = {"add": "addition", "sub": "addition", "mul": "multiplication", "div": "division", "neg": "negation"}
 _LONGEST_INLINE = 84
 _LONGEST_SCALE = 8
+_SHORTEST_COPY = 6
 _LARGEST_GUARDED = 8000
 
 Slot = tuple[Place, int]
@@ -366,13 +367,16 @@ class CoreWriter:
                 self._line("")
                 self._comment(statement.comment)
                 self._condition_head("if ", statement.condition, "")
+                outer = dict(self.bound)  # a name that one branch gives is not known to the other
                 self._open()
                 self._statements(statement.then)
                 self._close()
+                self.bound = dict(outer)
                 if statement.otherwise:
                     self._open("else")
                     self._statements(statement.otherwise)
                     self._close()
+                    self.bound = outer
             case Raise():
                 self._line(f"status = {self.root}_higher(status, {u}_{statement.status.name});")
                 self.functions.add("higher")
@@ -668,13 +672,16 @@ class CoreWriter:
             self._comment(line)
         outer = dict(self.bound)
         self._open()
-        self._emit([(slot, node) for slot, node in pending.items()])
+        # where a matrix has blocks, those that a kernel leaves alone are long runs
+        self._emit(list(pending.items()), loops=any(getattr(kernel, "packing", None) for kernel in group))
         self._close()
         self.bound = outer
         for place, _ in pending:
             self.versions[place] += 1
 
-    def _emit(self, stores: Sequence[tuple[Slot | None, Node]], parents: Sequence[Parent] = ()) -> None:
+    def _emit(
+        self, stores: Sequence[tuple[Slot | None, Node]], parents: Sequence[Parent] = (), *, loops: bool = False
+    ) -> None:
         """Print values in order: constants on lines of their own, then the stores.
 
         An element that is both read and overwritten is read first. A line that several values need belongs to the parent
@@ -694,7 +701,10 @@ class CoreWriter:
                 uses[argument] += 1
                 stack.append(argument)
         loads = {node.element[:2]: node for node in seen if node.operation == "load"}
+        copied = self._copies(stores, uses, loads) if loops else set()
         for k, (slot, node) in enumerate(stores):
+            if k in copied:
+                continue
             if parents:
                 self.lines.parent = parents[k]
             if slot is None:
@@ -709,6 +719,38 @@ class CoreWriter:
                 self._bind(shadowed, uses)
                 text = self._expression(node, uses, top=True) if node is shadowed else text
             self._line(f"{self._slot(Element(slot[0], slot[1]))} = {text};")
+
+    def _copies(
+        self, stores: Sequence[tuple[Slot | None, Node]], uses: Counter[Node], loads: Mapping[Slot, Node]
+    ) -> set[int]:
+        """Write long runs of elements that are handed on as they are as loops; return which stores these were."""
+        found: set[int] = set()
+        run: list[int] = []
+
+        def close() -> None:
+            if len(run) >= _SHORTEST_COPY:
+                (target, first), (source, _, _) = stores[run[0]][0], stores[run[0]][1].element  # type: ignore[misc]
+                at = f"{first}U + i" if first else "i"
+                self._loop(len(run), f"{self._base(target)}[{at}] = {self._base(source)}[{at}];")
+                found.update(run)
+            run.clear()
+
+        for k, (slot, node) in enumerate(stores):
+            plain = slot is not None and node.operation == "load" and uses[node] == 1 and node not in self.bound
+            plain = plain and slot is not None and node.element[0] != slot[0] and node.element[1] == slot[1]
+            plain = plain and slot not in loads
+            if not plain:
+                close()
+                continue
+            assert slot is not None
+            if run:
+                before, last = stores[run[-1]]
+                assert before is not None
+                if (slot[0], slot[1], node.element[0]) != (before[0], before[1] + 1, last.element[0]):
+                    close()
+            run.append(k)
+        close()
+        return found
 
     def _bind(self, node: Node, uses: Counter[Node]) -> str:
         """Give a node a line and a name of its own."""

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .discretisation import expected, increment, measurement_noise, process_covariance, rates, retract, wrapped
-from .model import Array, Model, SensorModel, packed, split_state, stack
+from .model import Array, Model, SensorModel, packed, split_state, stack, unpacked
 
 Call = tuple[str, dict[str, Any]]
 Calls = Generator[Call, Mapping[str, Any] | None, None]
@@ -108,7 +108,13 @@ class Exercise:
         counters = {
             f"rejected_{sensor.name}": np.array([rng.integers(0, 3)], dtype=np.uint32) for sensor in self.model.sensors
         }
-        return {**split_state(self.model, self.near(rng)), "covariance": packed(P), **counters}
+        if self.model.blocks:
+            P = unpacked(
+                np.concatenate([packed(P[np.ix_(block, block)]) for block in self.model.blocks]), self.model.blocks
+            )
+        return {
+            **split_state(self.model, self.near(rng)), "covariance": packed(P, self.model.blocks), **counters
+        }  # fmt: skip
 
     # -- parts --------------------------------------------------------------------------------------------------------
 

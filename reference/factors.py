@@ -13,13 +13,13 @@ from typing import Any
 import numpy as np
 
 from .kalman import Answer, Filter, KalmanOracle, Refused, Status
-from .model import Array, Model, packed, unpacked
+from .model import Array, Blocks, Model, packed, unpacked
 
 TINY = 1.0e-30
 """Least pivot of Q that is divided by."""
 
 
-def factorised(covariance: Array) -> Array:
+def factorised(covariance: Array, blocks: Blocks = ()) -> Array:
     """Return the packed factors of a packed covariance: D on the diagonal, U beside it (Bierman 1977, eq. III.2).
 
     Returns
@@ -27,7 +27,7 @@ def factorised(covariance: Array) -> Array:
     array (n (n + 1) / 2,)
         With an element of D that is not positive where the matrix is not positive definite.
     """
-    rest = unpacked(np.asarray(covariance, dtype=float)).copy()
+    rest = unpacked(np.asarray(covariance, dtype=float), blocks).copy()
     n = len(rest)
     table = np.zeros((n, n))
     with np.errstate(all="ignore"):
@@ -35,14 +35,21 @@ def factorised(covariance: Array) -> Array:
             table[j, j] = rest[j, j]
             table[:j, j] = rest[:j, j] / rest[j, j] if rest[j, j] != 0 else 0.0
             rest[:j, :j] -= rest[j, j] * np.outer(table[:j, j], table[:j, j])
-    return packed(table)
+    return _stored(table, blocks)
 
 
-def multiplied(factors: Array) -> Array:
+def multiplied(factors: Array, blocks: Blocks = ()) -> Array:
     """Return the packed covariance U D U' of packed factors."""
-    table = unpacked(np.asarray(factors, dtype=float))
+    table = unpacked(np.asarray(factors, dtype=float), blocks)
     upper = np.triu(table, 1) + np.eye(len(table))
-    return packed((upper * np.diag(table)) @ upper.T)
+    return packed((upper * np.diag(table)) @ upper.T, blocks)
+
+
+def _stored(table: Array, blocks: Blocks) -> Array:
+    """Return packed factors: those of a block-diagonal matrix have its blocks."""
+    if not blocks:
+        return packed(table)
+    return np.concatenate([packed(table[np.ix_(block, block)]) for block in blocks])
 
 
 def _with_rounded_ends(model: Model, precision: type) -> Model:
@@ -62,6 +69,17 @@ def _with_rounded_ends(model: Model, precision: type) -> Model:
         floor=model.floor.astype(precision).astype(float),
         ceiling=model.ceiling.astype(precision).astype(float),
     )
+
+
+def _diagonal(model: Model) -> Array:
+    """Return where each element of D is packed."""
+    n = len(model.floor)
+    answer, start = np.zeros(n, dtype=int), 0
+    for block in model.blocks or (tuple(range(n)),):
+        size = len(block)
+        answer[list(block)] = start + np.cumsum([0, *range(size, 1, -1)])
+        start += size * (size + 1) // 2
+    return answer
 
 
 class FactoredFilter(Filter):
@@ -117,14 +135,13 @@ class FactoredOracle:
         """Run an entry; see `KalmanOracle.call`."""
         given = dict(memory)
         if entry != "init":
-            given["covariance"] = multiplied(given.pop("factors"))
+            given["covariance"] = multiplied(given.pop("factors"), self.model.blocks)
         inside = self._inside[np.float32 if precision is np.float32 else np.float64]
         status, after, outputs = inside.call(entry, given, inputs, params)
         if status < 0:
             return status, after, outputs
-        factors = factorised(after.pop("covariance"))
-        n = len(self.model.floor)
-        places = np.cumsum([0, *range(n, 1, -1)])
+        factors = factorised(after.pop("covariance"), self.model.blocks)
+        places = _diagonal(self.model)
         if not np.all(factors[places] >= 0):
             return int(Status.NOT_POSITIVE), {}, {}
         raised = np.maximum(factors[places], inside.model.floor)

@@ -166,7 +166,7 @@ class Filter:
         variances = stack([f"variance_{state.name}_0" for state in self.model.states], self.params, self.precision)
         status, P = self.held(np.diag(variances))
         counters = {f"rejected_{sensor.name}": np.zeros(1, dtype=np.uint32) for sensor in self.model.sensors}
-        return status, {**split_state(self.model, x), "covariance": packed(P), **counters}, {}
+        return status, {**split_state(self.model, x), "covariance": packed(P, self.model.blocks), **counters}, {}
 
     def predict(self, memory: Memory, inputs: Mapping[str, Any]) -> tuple[Status, Memory, dict[str, Array]]:
         """x+ = f(x, u), P+ = F P F' + Q (Bar-Shalom et al., eq. 10.3.2-4)."""
@@ -225,9 +225,9 @@ class Filter:
         """P+ = factor P, the estimate as it was."""
         limits = InputModel("factor", 1, np.array([1.0]), np.array([1.0e6]))
         self.judge_inputs([limits], {"factor": factor})
-        status, P = self.held(self.precision(np.ravel(factor)[0]) * unpacked(memory["covariance"]))
+        status, P = self.held(self.precision(np.ravel(factor)[0]) * unpacked(memory["covariance"], self.model.blocks))
         self.judge(P)
-        return status, {**memory, "covariance": packed(P)}, {}
+        return status, {**memory, "covariance": packed(P, self.model.blocks)}, {}
 
     def step(self, memory: Memory, inputs: Mapping[str, Any]) -> tuple[Status, Memory, dict[str, Array]]:
         """Predict, then every sensor whose flag is up, in their order."""
@@ -273,11 +273,11 @@ class Filter:
     def estimate(self, memory: Memory) -> tuple[Array, Array]:
         """Return x and P."""
         x = stack([state.name for state in self.model.states], memory, self.precision)
-        return x, unpacked(memory["covariance"])
+        return x, unpacked(memory["covariance"], self.model.blocks)
 
     def with_estimate(self, memory: Memory, x: Array, P: Array) -> Memory:
         """Return the memory with another x and P."""
-        return {**memory, **split_state(self.model, x), "covariance": packed(P)}
+        return {**memory, **split_state(self.model, x), "covariance": packed(P, self.model.blocks)}
 
     def no_report(self, sensor: SensorModel) -> dict[str, Array]:
         """Return the outputs of a sensor that was not used."""

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
+Blocks = tuple[tuple[int, ...], ...]
 Precision = Any
 """numpy.float64 or numpy.float32."""
 
@@ -133,6 +134,9 @@ class Model:
         In the order in which `step` takes them.
     floor, ceiling : array
         Bounds of the variances, for each component of the error.
+    blocks : tuple of tuple of int
+        Components of the error that the covariance correlates; empty if it correlates all. Only these blocks are kept in
+        memory; that nothing is lost is checked here, call by call.
     """
 
     states: tuple[StateModel, ...]
@@ -148,6 +152,7 @@ class Model:
     sensors: tuple[SensorModel, ...]
     floor: Array
     ceiling: Array
+    blocks: Blocks = ()
 
     @cached_property
     def error_size(self) -> int:
@@ -186,17 +191,44 @@ def split_state(model: Model, x: Array) -> dict[str, Array]:
     return {state.name: x[at].copy() for state, at, _ in model.places}
 
 
-def unpacked(packed: Array) -> Array:
-    """Return the symmetric matrix of an upper triangle packed by rows."""
-    size = int((np.sqrt(8 * len(packed) + 1) - 1) // 2)
-    full = np.zeros((size, size), dtype=packed.dtype)
-    full[np.triu_indices(size)] = packed
-    return np.asarray(full + np.triu(full, 1).T)
+class CorrelatedError(ValueError):
+    """A covariance correlates what its blocks say it does not."""
 
 
-def packed(full: Array) -> Array:
-    """Return the upper triangle of a symmetric matrix, packed by rows."""
-    return np.asarray(full[np.triu_indices(len(full))])
+def unpacked(packed: Array, blocks: Blocks = ()) -> Array:
+    """Return the symmetric matrix of an upper triangle packed by rows, or of one such triangle for each block."""
+    size = sum(map(len, blocks)) if blocks else int((np.sqrt(8 * len(packed) + 1) - 1) // 2)
+    full, start = np.zeros((size, size), dtype=packed.dtype), 0
+    for block in blocks or (tuple(range(size)),):
+        count = len(block) * (len(block) + 1) // 2
+        own = np.zeros((len(block),) * 2, dtype=packed.dtype)
+        own[np.triu_indices(len(block))] = packed[start : start + count]
+        full[np.ix_(block, block)] = own + np.triu(own, 1).T
+        start += count
+    return full
+
+
+def packed(full: Array, blocks: Blocks = ()) -> Array:
+    """Return the upper triangle of a symmetric matrix, packed by rows, or that of each block.
+
+    Raises
+    ------
+    CorrelatedError
+        If an element outside the blocks is not zero to rounding.
+    """
+    if not blocks:
+        return np.asarray(full[np.triu_indices(len(full))])
+    label = np.zeros(len(full), dtype=int)
+    for k, block in enumerate(blocks):
+        label[list(block)] = k
+    sigma = np.sqrt(np.abs(np.diag(full)))
+    lost = (label[:, None] != label[None, :]) & (np.abs(full) > 1e-9 * np.outer(sigma, sigma))
+    if np.any(lost):
+        i, j = np.argwhere(lost)[0]
+        raise CorrelatedError(
+            f"components {i} and {j} of the error are in different blocks, and correlated by {full[i, j]:.6g}"
+        )
+    return np.concatenate([full[np.ix_(block, block)][np.triu_indices(len(block))] for block in blocks])
 
 
 def strength(noises: Sequence[NoiseModel], params: Mapping[str, Array], precision: Precision) -> Array:

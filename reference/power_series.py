@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .controllers import Array, Fields, wrapped
+from .controllers import Array, Fields, StateFeedback, wrapped
 
 
 @dataclass(frozen=True)
@@ -57,3 +57,24 @@ class RegulatorMap:
             own = np.array([row.value(w, params) for row in rows], dtype=w.dtype)
             answer[name] = wrapped(own) if angle else own
         return False, {}, answer
+
+
+@dataclass(frozen=True)
+class RegulatorFeedback:
+    """u = u* + gamma(w) - K (x - x* - pi(w)): state feedback whose set point moves.
+
+    Attributes
+    ----------
+    maps : RegulatorMap
+        The set point.
+    feedback : StateFeedback
+        The feedback about it.
+    """
+
+    maps: RegulatorMap
+    feedback: StateFeedback
+
+    def __call__(self, memory: Fields, inputs: Fields, params: Fields) -> tuple[bool, Fields, Fields]:
+        """Evaluate it; see `plantc.reference.controllers.Formula`."""
+        _, _, wanted = self.maps(memory, inputs, params)
+        return self.feedback(memory, inputs, {**params, **wanted})

@@ -19,7 +19,9 @@ from ..symbolic.analysis import OperatingPoint
 from ..symbolic.block import Block
 from ..symbolic.composition import Delay, connect, delay
 from ..symbolic.errors import ModelError
+from ..symbolic.forms import packing_of
 from ..symbolic.plant import Plant
+from ..symbolic.program import Packing
 from ..symbolic.signals import Kind, Signal
 from ..symbolic.simulated import NoiseInput, noise_inputs, simulated_plant
 from .metrics import History, StatePlace
@@ -42,6 +44,8 @@ class Layout:
         Memory fields, one for each state; `estimate` is empty if the controller keeps none.
     spread : str
         Memory field of the covariance, or of its factors; empty if there is none.
+    packing : Packing or None
+        Which elements that field holds.
     nis : dict of str to str
         Sensor -> output.
     commands : tuple of str
@@ -53,6 +57,7 @@ class Layout:
     truth: tuple[str, ...]
     estimate: tuple[str, ...]
     spread: str
+    packing: Packing | None
     nis: dict[str, str]
     commands: tuple[str, ...]
 
@@ -177,6 +182,7 @@ def closed_loop(
         raise ModelError(f"{controller.name}: held= names {sorted(given)}, which are no inputs of it")
     block = connect({"plant": truth, "controller": controller}, wires, name)
     estimate = _estimate(controller, plant)
+    spread, packing = _spread(controller, estimate, plant.error_size) if estimate is not None else ("", None)
     layout = Layout(
         tuple(
             StatePlace(s.signal.name, s.signal.size, "attitude" if s.attitude else "angle" if s.signal.angle else "plain")
@@ -185,7 +191,8 @@ def closed_loop(
         tuple(float(item) for item in where.x),
         tuple(f"plant.{state.signal.name}" for state in plant.states),
         tuple(f"controller.{estimate}{state.signal.name}" for state in plant.states) if estimate is not None else (),
-        _spread(controller, estimate, plant.error_size) if estimate is not None else "",
+        spread,
+        packing,
         _nis(controller, sensors),
         tuple(f"controller.{command}" for command in commands),
     )  # fmt: skip
@@ -239,12 +246,13 @@ def _estimate(controller: Block, plant: Plant) -> str | None:
     return None
 
 
-def _spread(controller: Block, prefix: str, size: int) -> str:
-    sizes = {signal.name: signal.size for signal in controller.memory_signals_flat()}
+def _spread(controller: Block, prefix: str, size: int) -> tuple[str, Packing | None]:
+    """Return the memory field of the covariance, or of its factors, and which elements it holds."""
     for field in ("covariance", "factors"):
-        if sizes.get(prefix + field) == size * (size + 1) // 2:
-            return f"controller.{prefix}{field}"
-    return ""
+        packing = packing_of(controller, prefix + field)
+        if packing is not None and packing.size == size:
+            return f"controller.{prefix}{field}", packing
+    return "", None
 
 
 def _nis(controller: Block, sensors: Mapping[str, int]) -> dict[str, str]:
@@ -294,7 +302,7 @@ def history_of(
         np.array(layout.point),
         stacked(memory, layout.truth),
         stacked(memory, layout.estimate) if layout.estimate else None,
-        stacked(memory, (layout.spread,)) if layout.spread else None,
+        _triangles(stacked(memory, (layout.spread,)), layout.packing) if layout.packing else None,
         layout.spread.endswith("factors"),
         {name: np.array(outputs(field), dtype=float).ravel() for name, field in layout.nis.items()},
         stacked(outputs, layout.commands),
@@ -302,6 +310,16 @@ def history_of(
         asked,
         refused,
     )
+
+
+def _triangles(stored: Array, packing: Packing) -> Array:
+    """Return whole upper triangles by rows, what is zero by structure included."""
+    if not packing.blocks:
+        return stored
+    whole = Packing(packing.size)
+    answer = np.zeros((len(stored), whole.count))
+    answer[:, [whole.at(i, j) for i, j in packing.pairs]] = stored
+    return answer
 
 
 _rooms = threading.local()

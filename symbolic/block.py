@@ -495,12 +495,13 @@ class Block:
     def judge_inputs(self, entry: Entry) -> Condition:
         """Return the condition that the inputs of an entry are within their ranges.
 
-        Inputs inside a nested group belong to a Call, and are judged by the entry called.
+        Inputs inside a nested group belong to a Call, and are judged by the entry called; those that the body judges itself,
+        such as a reading behind its flag, are left to it.
         """
         signals = [signal for signal in entry.inputs if signal.kind is Kind.REAL]
         signals += [signal for signal, _ in entry.hidden if signal.kind is Kind.REAL]
         hidden = {signal.name for signal, _ in entry.hidden}
-        passed_on = _arguments_of_calls(entry.body)
+        passed_on = _arguments_of_calls(entry.body) | _judged_within(entry.body)
         return AllOf(
             tuple(
                 Within(Place("in", signal.name), signal.low, signal.high)
@@ -579,6 +580,18 @@ class Block:
 
         feed(self)
         return digest.hexdigest()[:8]
+
+
+def _judged_within(statements: Sequence[Statement]) -> set[str]:
+    """Return the inputs that statements refuse themselves (BAD_INPUT) outside their ranges."""
+    return {
+        statement.unless.place.name
+        for statement in walk(statements)
+        if isinstance(statement, Refuse)
+        and statement.status is Status.BAD_INPUT
+        and isinstance(statement.unless, Within)
+        and statement.unless.place.space == "in"
+    }
 
 
 def _arguments_of_calls(statements: Sequence[Statement]) -> set[str]:

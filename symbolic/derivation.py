@@ -15,7 +15,7 @@ from .block import Block
 from .errors import ModelError
 from .expressions import equation_text, number_text, numpy_callable
 from .origins import Origin
-from .plant import Noise, Plant, Sensor, Symbol
+from .plant import Noise, Plant, Sensor, State, Symbol
 from .program import AllOf, Assign, Compare, Element, Evaluate, Place, Refuse, Statement
 from .signals import Kind, Signal, Status, spread
 
@@ -179,12 +179,13 @@ class Derivation:
             tuple(tuple(group) for group in origins),
         )
 
-    def next_states(self) -> tuple[Targets, tuple[str, ...]]:
-        """Return where the next states go, and their names in the C."""
-        targets = tuple((Place("next", state.signal.name), state.signal.size) for state in self.plant.states)
+    def next_states(self, only: Sequence[State] | None = None) -> tuple[Targets, tuple[str, ...]]:
+        """Return where the next states (or some of them) go, and their names in the C."""
+        states = self.plant.states if only is None else only
+        targets = tuple((Place("next", state.signal.name), state.signal.size) for state in states)
         names = tuple(
             f"next_{state.signal.name}" + (f"_{i}" if state.signal.size > 1 else "")
-            for state in self.plant.states
+            for state in states
             for i in range(state.signal.size)
         )
         return targets, names
@@ -216,9 +217,10 @@ class Derivation:
                 body.append(Assign(Place("next", name), Place("param", f"{name}_0"), state.signal.size))
         return body
 
-    def judge(self) -> Refuse:
-        """Return the refusal of a state outside its range."""
-        return Refuse(Status.OVERFLOW, self.block.judge_memory([state.signal.name for state in self.plant.states]))
+    def judge(self, only: Sequence[State] | None = None) -> Refuse:
+        """Return the refusal of a state (or of some of them) outside its range."""
+        states = self.plant.states if only is None else only
+        return Refuse(Status.OVERFLOW, self.block.judge_memory([state.signal.name for state in states]))
 
     def notes(self) -> list[str]:
         """Return what the header says of constants, time step and discretisation."""
@@ -240,7 +242,11 @@ class Derivation:
         return lines
 
     def textbook_model(
-        self, readings: Sequence[tuple[Sensor, tuple[Symbol, ...]]], floor: Sequence[float], ceiling: Sequence[float]
+        self,
+        readings: Sequence[tuple[Sensor, tuple[Symbol, ...]]],
+        floor: Sequence[float],
+        ceiling: Sequence[float],
+        blocks: tuple[tuple[int, ...], ...] = (),
     ) -> textbook.Model:
         """Lower f and h, never a derivative of ours, to NumPy callables.
 
@@ -250,6 +256,8 @@ class Derivation:
             The sensors that are used, and the inputs of the plant that each needs.
         floor, ceiling : sequence of float
             Bounds of the variances, for each component of the error.
+        blocks : tuple of tuple of int
+            Components of the error that the covariance correlates; empty if all.
         """
         plant = self.plant
         made = plant.discretisation
@@ -292,6 +300,7 @@ class Derivation:
             sensors=tuple(sensors),
             floor=np.array(floor),
             ceiling=np.array(ceiling),
+            blocks=blocks,
         )
 
     def _sensor_model(self, sensor: Sensor, inputs: tuple[Symbol, ...]) -> textbook.SensorModel:

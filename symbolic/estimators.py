@@ -10,6 +10,8 @@ from typing import Any
 import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import connected_components
 
 from ..reference import estimators as textbook
 from .block import Block, DerivativeCheck, Scenario
@@ -35,6 +37,7 @@ from .program import (
     Evaluate,
     IsSet,
     Kernel,
+    Packing,
     Place,
     Raise,
     Refuse,
@@ -62,6 +65,7 @@ def extended_kalman_filter(
     variance_floor: Mapping[Any, float] | float | None = None,
     variance_ceiling: Mapping[Any, float] | float | None = None,
     form: str = "conventional",
+    correlated: str = "structural",
     float_bound: float = 0.05,
     name: str | None = None,
     doc: str = "",
@@ -92,6 +96,10 @@ def extended_kalman_filter(
         How the covariance is kept and updated: as itself, by scalar updates; as itself, each row in Joseph's form; or as
         factors U D U' (Bierman 1977, Thornton 1976), which stay positive definite in single precision with a sharp
         sensor and a vague prior. With "ud" a floor bounds the elements of D.
+    correlated : {"structural", "all"}
+        What of the covariance is kept. By default only what can ever differ from zero: states that neither dynamics, noise
+        nor sensors link, however indirectly, stay uncorrelated, and P is a block for each group of them. "all" keeps the
+        whole triangle, as for a memory in which you want to correlate such states by hand.
     float_bound : float
         Largest accepted difference of the single-precision C from double precision in one call, in sigma.
     name : str, optional
@@ -121,6 +129,7 @@ def extended_kalman_filter(
         variance_ceiling,
         float_bound,
         form,
+        correlated,
     )
     return _Builder(plant, options).build()
 
@@ -233,6 +242,7 @@ class _Options:
     ceiling: Mapping[Any, float] | float | None
     float_bound: float
     form: str
+    correlated: str
 
 
 def _upper(matrix: ca.SX) -> tuple[Pattern, ca.SX]:
@@ -279,8 +289,16 @@ class _Builder(Derivation):
         self.ceiling = self._per_error(options.ceiling, "variance_ceiling", 1e-30, 1e15)
         if any(low >= high for low, high in zip(self.floor, self.ceiling, strict=True)):
             raise ModelError(f"{name}: a variance floor is not below its ceiling; lower variance_floor")
-        self.form = form_named(options.form, name)(self.n, self.floor, self.ceiling)
-        self._declare()
+        kind = form_named(options.form, name)
+        if options.correlated not in ("structural", "all"):
+            raise ModelError(f"{name}: correlated is {options.correlated!r}; take 'structural' or 'all'")
+        self._declare_noises()
+        self.following, self.F = transition(plant)
+        self.Q = self.process_noise()
+        self.measurements = [self.measurement(sensor) for sensor in plant.sensors]
+        blocks = self._blocks() if options.correlated == "structural" else ()
+        self.form = kind(Packing(self.n, blocks), self.floor, self.ceiling)
+        self._declare_memory()
 
     # -- what the user said -------------------------------------------------------------------------------------------
 
@@ -317,7 +335,7 @@ class _Builder(Derivation):
 
     # -- declarations -------------------------------------------------------------------------------------------------
 
-    def _declare(self) -> None:
+    def _declare_noises(self) -> None:
         plant, block, options = self.plant, self.block, self.options
         block.param_signals += [symbol.signal for symbol in plant.parameters]
         for noise in plant.process_noises:
@@ -360,7 +378,6 @@ class _Builder(Derivation):
                 doc="factor on P at a recovery",
             ),
         ]
-        self._declare_memory()
 
     def _declare_noise(self, noise: Noise) -> None:
         kind = "density" if noise.is_density else "variance"
@@ -451,6 +468,28 @@ class _Builder(Derivation):
             name = f"rejected_{sensor.signal.name}"
             doc = f"readings of {sensor.signal.name} gated in a row; stays at its largest value"
             block.memory_signals.append(Signal(name, kind=Kind.COUNT, low=(0.0,), high=(2.0**32 - 1,), doc=doc))
+
+    def _blocks(self) -> tuple[tuple[int, ...], ...]:
+        """Return the components of the error in blocks that nothing ever correlates: P is zero between them.
+
+        Two components are linked where one drives the other (F), where noise drives both (Q), where a row of a sensor reads
+        both (H) or two rows with common noise read one each (R), and where they belong to one attitude, whose correction
+        turns its error. P starts diagonal; what is not connected by such links stays uncorrelated for ever.
+        """
+        links = np.eye(self.n, dtype=bool)
+        for matrix in (self.F, self.Q):
+            for i, j in _rowwise(matrix)[0]:
+                links[i, j] = True
+        for made in self.measurements:
+            rows = [{j for i, j in _rowwise(made.H)[0] if i == row} for row in range(made.H.shape[0])]
+            for i, j in _upper(made.R)[0]:
+                read = sorted(rows[i] | rows[j])
+                links[np.ix_(read, read)] = True
+        for state in self.plant.states:
+            if state.attitude:
+                links[state.error_at, state.error_at] = True
+        count, label = connected_components(csr_matrix(links), directed=False)
+        return tuple(tuple(map(int, np.flatnonzero(label == k))) for k in range(count))
 
     # -- derivation ---------------------------------------------------------------------------------------------------
 
@@ -549,8 +588,7 @@ class _Builder(Derivation):
 
     def _predict(self) -> Entry:
         plant = self.plant
-        following, F = transition(plant)
-        Q = self.process_noise()
+        following, F, Q = self.following, self.F, self.Q
         f_pattern, f_values = _rowwise(F)
         q_pattern, q_values = _upper(Q)
         f_names = tuple(f"f_{i}_{j}" for i, j in f_pattern)
@@ -617,6 +655,7 @@ class _Builder(Derivation):
             f"residual{tail(i)} = {name}{tail(i)} - {subtracted(text)}{wrapped}" for i, text in enumerate(expected)
         ]
         rows = Rows(m, residual, h, h_pattern, r, (False,) * m, h_names, r_names, e_names)
+        touched = self._touched({j for _, j in h_pattern})
         body: list[Statement] = [
             self.evaluate(
                 f"measure_{name}", reads, outputs, comment, self._measure_origins(sensor, comment, h_pattern, r_pattern)
@@ -657,10 +696,10 @@ class _Builder(Derivation):
             When(
                 accepted,
                 (
-                    *self._correct(name),
+                    *self._correct(name, touched),
                     Assign(Place("next", f"rejected_{name}"), 0.0, 1),
                     *self.form.hold(),
-                    self.judge(),
+                    self.judge(touched),
                 ),
                 (Restore(), CountUp(Place("next", f"rejected_{name}")), Raise(Status.GATED)),
                 "accepted?",
@@ -724,13 +763,19 @@ class _Builder(Derivation):
             [Origin("noise", f"R of {sensor.signal.name}", noises)] * len(r_pattern),
         ]
 
-    def _correct(self, sensor: str) -> list[Statement]:
-        """Apply the correction d to the state, and turn P into the corrected body frame of an attitude."""
+    def _touched(self, read: set[int]) -> list[State]:
+        """Return the states that a reading may change: those correlated with the components of the error it reads."""
+        moved = {j for block in self.form.packing.parts if read & set(block) for j in block}
+        return [state for state in self.plant.states if moved & set(range(state.error_at.start, state.error_at.stop))]
+
+    def _correct(self, sensor: str, touched: list[State]) -> list[Statement]:
+        """Apply the correction d to the states it touches, and turn P into the corrected body frame of an attitude."""
         plant = self.plant
         d = ca.SX.sym("d", self.n)
-        targets, names = self.next_states()
+        targets, names = self.next_states(touched)
         symbols, places = self.state_reads()
-        moved = plant.wrapped(plant.retract(plant.x, d))
+        whole = plant.wrapped(plant.retract(plant.x, d))
+        moved = ca.vertcat(*[whole[state.at] for state in touched])
         body: list[Statement] = []
         gains = []
         for state in plant.states:
@@ -808,7 +853,7 @@ class _Builder(Derivation):
     def build(self) -> Block:
         """Derive and assemble."""
         plant, block = self.plant, self.block
-        measurements = [self.measurement(sensor) for sensor in plant.sensors]
+        measurements = self.measurements
         predict = self._predict()
         updates = [(made.sensor, self._update(made)) for made in measurements]
         entries = [
@@ -824,6 +869,11 @@ class _Builder(Derivation):
         if any(noise.is_density for noise in plant.process_noises):
             block.notes.append("Noise densities are integrated over the step.")
         block.notes.append(self.form.note)
+        if self.form.packing.blocks:
+            sizes = ", ".join(str(len(part)) for part in self.form.packing.blocks)
+            block.notes.append(
+                f"P is zero by structure outside blocks of {sizes}: only the blocks are kept and computed."
+            )
         block.source_hash = plant.fingerprint()
         block.float_bound = self.options.float_bound
         block.check()
@@ -833,7 +883,9 @@ class _Builder(Derivation):
             + [(sensor.signal.name, f"the sensor {sensor.signal.name!r}") for sensor in plant.sensors],
             block.name,
         )
-        model = self.textbook_model([(item.sensor, item.inputs) for item in measurements], self.floor, self.ceiling)
+        model = self.textbook_model(
+            [(item.sensor, item.inputs) for item in measurements], self.floor, self.ceiling, self.form.packing.blocks
+        )
         block.oracle = self.form.oracle(model)
         block.scenario = self._scenario(model)
         block.derivative_checks = self._derivative_checks(model, block)

@@ -15,46 +15,47 @@ from typing import Any
 import numpy as np
 from scipy.linalg import rq
 
-from .kernels import SMALLEST_VARIANCE, Pattern, _full, _product, _total
-from .program import Array, Kernel, Place, pack_symmetric, packed_index, packed_size
+from .kernels import SMALLEST_VARIANCE, Packed, Pattern, _full, _product, _total
+from .program import Array, Packing, Place
 
 Sparse = dict[int, Any]
 """Column -> value of one row, structural zeros left out."""
 
 
-def factor_names(size: int) -> tuple[str, ...]:
+def factor_names(packing: Packing) -> tuple[str, ...]:
     """Return names of the packed factors."""
-    return tuple(f"d_{i}" if i == j else f"u_{i}_{j}" for i in range(size) for j in range(i, size))
+    return tuple(f"d_{i}" if i == j else f"u_{i}_{j}" for i, j in packing.pairs)
 
 
-def root_of(packed: Array, size: int) -> Array:
-    """Return U sqrt(D), upper triangular, of packed factors."""
-    table = np.zeros((size, size))
-    table[np.triu_indices(size)] = packed
+def root_of(packed: Array, packing: Packing | int) -> Array:
+    """Return U sqrt(D), upper triangular, of packed factors; a number stands for a whole triangle of that size."""
+    packing = Packing(packing) if isinstance(packing, int) else packing
+    table = packing.upper(packed)
     weights = np.sqrt(np.maximum(np.diag(table), 0.0))
-    return (np.triu(table, 1) + np.eye(size)) * weights
+    return np.asarray((np.triu(table, 1) + np.eye(packing.size)) * weights)
 
 
-def covariance_of(packed: Array, size: int) -> Array:
+def covariance_of(packed: Array, packing: Packing | int) -> Array:
     """Return P = U D U' (size, size) of packed factors."""
-    root = root_of(np.asarray(packed, dtype=float), size)
+    root = root_of(np.asarray(packed, dtype=float), packing)
     return root @ root.T
 
 
-def factors_of_root(root: Array) -> Array:
+def factors_of_root(root: Array, packing: Packing | None = None) -> Array:
     """Return the packed factors of P = root root', for a root with as many columns as rows or more.
 
     An element of D that is zero gives a column of zeros in U.
     """
     size = len(root)
+    packing = packing or Packing(size)
     if not np.all(np.isfinite(root)):
-        return np.full(packed_size(size), np.nan)
+        return np.full(packing.count, np.nan)
     upper = rq(root, mode="economic", check_finite=False)[0][:, -size:]
     diagonal = np.diag(upper).copy()
     scale = np.where(diagonal == 0.0, 1.0, diagonal)
     table = upper / scale
     table[np.diag_indices(size)] = diagonal**2
-    return pack_symmetric(table)
+    return packing.pack(table)
 
 
 def _factors_of_matrix(matrix: Array) -> tuple[Array, Array]:
@@ -73,13 +74,18 @@ SMALLEST_DIVISOR = 1.0e-30
 """Least element of D that is divided by; below it the column of U is taken to be zero."""
 
 
-def _upper_rows(size: int, packed: list[Any]) -> tuple[list[Sparse], list[Any]]:
+def _upper_rows(packing: Packing, packed: list[Any]) -> tuple[list[Sparse], list[Any]]:
     """Return the rows of U beside its diagonal, and D."""
-    rows = [{j: packed[packed_index(size, i, j)] for j in range(i + 1, size)} for i in range(size)]
-    return rows, [packed[packed_index(size, i, i)] for i in range(size)]
+    rows: list[Sparse] = [{} for _ in range(packing.size)]
+    for (i, j), value in zip(packing.pairs, packed, strict=True):
+        if i != j:
+            rows[i][j] = value
+    return rows, [packed[place] for place in packing.diagonal]
 
 
-def _triangularised(rows: list[Sparse], weights: dict[int, Any], positive: frozenset[int]) -> list[Any]:
+def _triangularised(
+    rows: list[Sparse], weights: dict[int, Any], positive: frozenset[int], packing: Packing
+) -> list[Any]:
     """Return the packed factors of W diag(weights) W' by rotations of weighted columns; structural zeros are used.
 
     For each row, from the last to the first, one column keeps an element in it and clears that of every other column; it
@@ -96,12 +102,14 @@ def _triangularised(rows: list[Sparse], weights: dict[int, Any], positive: froze
         Column -> its weight, not negative.
     positive : frozenset of int
         Columns whose weight is at least a floor of D: by a multiple of it may be divided.
+    packing : Packing
+        Which elements are stored.
     """
     size = len(rows)
-    answer: list[Any] = [0.0] * packed_size(size)
+    answer: list[Any] = [0.0] * packing.count
     for j in reversed(range(size)):
         active = [k for k in weights if k in rows[j]]
-        answer[packed_index(size, j, j)] = 0.0
+        answer[packing.at(j, j)] = 0.0
         if not active:
             continue
         pivot = min(active, key=lambda k: (not rows[j][k].is_const(1.0), k not in positive, abs(k - j), k))
@@ -112,10 +120,10 @@ def _triangularised(rows: list[Sparse], weights: dict[int, Any], positive: froze
         for k in active:
             if k != pivot:
                 _cleared(rows, weights, pivot, k, j, certain)
-        answer[packed_index(size, j, j)] = weights.pop(pivot).named(f"d_{j}")
+        answer[packing.at(j, j)] = weights.pop(pivot).named(f"d_{j}")
         for i in range(j):
             if pivot in rows[i]:
-                answer[packed_index(size, i, j)] = rows[i].pop(pivot).named(f"u_{i}_{j}")
+                answer[packing.at(i, j)] = rows[i].pop(pivot).named(f"u_{i}_{j}")
     return answer
 
 
@@ -156,7 +164,7 @@ def _cleared(rows: list[Sparse], weights: dict[int, Any], pivot: int, other: int
 
 
 @dataclass(frozen=True)
-class FactoredCongruence(Kernel):
+class FactoredCongruence(Packed):
     """Factors of P -> those of F P F' + Q, by weighted rotations; F sparse, Q given on a pattern of its upper triangle."""
 
     size: int
@@ -169,30 +177,32 @@ class FactoredCongruence(Kernel):
     f_names: tuple[str, ...] = ()
     q_names: tuple[str, ...] = ()
     comment: tuple[str, ...] = ("U D U' = F U D U' F' + Q, by rotations of columns weighted with D and Q",)
+    packing: Packing | None = None
 
     @property
     def reads(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
         """F, the factors, and Q."""
-        own = ((self.f, len(self.f_pattern)), (self.p, packed_size(self.size)))
+        own = ((self.f, len(self.f_pattern)), (self.p, self.layout.count))
         return own + (((self.q, len(self.q_pattern)),) if self.q else ())
 
     @property
     def writes(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
         """The new factors."""
-        return ((self.target, packed_size(self.size)),)
+        return ((self.target, self.layout.count),)
 
     def names(self) -> tuple[tuple[str, ...], ...]:
         """Names of the elements it reads."""
-        return (self.f_names, factor_names(self.size)) + ((self.q_names,) if self.q else ())
+        return (self.f_names, factor_names(self.layout)) + ((self.q_names,) if self.q else ())
 
     def order(self, output: int) -> list[int]:
         """Column by column, the last first: so U is found."""
-        return [packed_index(self.size, i, j) for j in reversed(range(self.size)) for i in [j, *range(j)]]
+        every = [(i, j) for j in reversed(range(self.size)) for i in [j, *range(j)]]
+        return [place for i, j in every if (place := self.layout.index(i, j)) is not None]
 
     def scalar(self, *values: list[Any]) -> list[list[Any]]:
         """Rows [F U, B] with weights [D, noise], Q = B diag(noise) B'."""
         n = self.size
-        upper, diagonal = _upper_rows(n, values[1])
+        upper, diagonal = _upper_rows(self.layout, values[1])
         rows: list[Sparse] = [{} for _ in range(n)]
         for (i, j), value in zip(self.f_pattern, values[0], strict=True):
             terms = {j: value, **{k: value * u for k, u in upper[j].items()}}
@@ -205,7 +215,7 @@ class FactoredCongruence(Kernel):
                 for i, value in column.items():
                     rows[i][n + k] = value
         # D in the memory is held above its floor, a candidate's is not yet
-        return [_triangularised(rows, weights, frozenset(range(n) if self.p.space == "memory" else ()))]
+        return [_triangularised(rows, weights, frozenset(range(n) if self.p.space == "memory" else ()), self.layout)]
 
     def _noise(self, values: list[Any]) -> list[tuple[Any, Sparse]]:
         """Return (weight, column of B) for each independent noise of Q, positive semidefinite; zero where rounding is negative."""
@@ -233,18 +243,18 @@ class FactoredCongruence(Kernel):
         """Triangularise [F U sqrt(D), B sqrt(noise)]."""
         n = self.size
         F = _full(self.f_pattern, values[0], (n, n))
-        root = F @ root_of(values[1], n)
+        root = F @ root_of(values[1], self.layout)
         if self.q:
             upper = _full(self.q_pattern, values[2], (n, n))
             if not np.all(np.isfinite(upper)):
-                return [np.full(packed_size(n), np.nan)]
+                return [np.full(self.layout.count, np.nan)]
             factor, weights = _factors_of_matrix(upper + np.triu(upper, 1).T)
             root = np.hstack([root, factor * np.sqrt(weights)])
-        return [factors_of_root(root)]
+        return [factors_of_root(root, self.layout)]
 
 
 @dataclass(frozen=True)
-class FactoredRowUpdate(Kernel):
+class FactoredRowUpdate(Packed):
     """One row of a measurement on the factors (Bierman 1977, sec. V.3): they stay positive whatever rounding does."""
 
     size: int
@@ -264,6 +274,7 @@ class FactoredRowUpdate(Kernel):
     delta: Place = Place("local", "delta")
     scales: Place = Place("local", "row_variance")
     nis: Place = Place("local", "nis")
+    packing: Packing | None = None
 
     @property
     def reads(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
@@ -272,7 +283,7 @@ class FactoredRowUpdate(Kernel):
             (self.residual, self.rows),
             (self.h, len(self.h_pattern)),
             (self.r, self.r_count),
-            (self.p, packed_size(self.size)),
+            (self.p, self.layout.count),
         )
         return own if self.row == 0 else (*own, (self.delta, self.size), (self.nis, 1), (self.scales, self.rows))
 
@@ -280,7 +291,7 @@ class FactoredRowUpdate(Kernel):
     def writes(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
         """The factors, the correction, NIS, and the variances of the rows."""
         return (
-            (self.target, packed_size(self.size)),
+            (self.target, self.layout.count),
             (self.delta, self.size),
             (self.nis, 1),
             (self.scales, self.rows),
@@ -288,7 +299,7 @@ class FactoredRowUpdate(Kernel):
 
     def names(self) -> tuple[tuple[str, ...], ...]:
         """Names of the elements it reads."""
-        own = (self.residual_names, self.h_names, self.r_names, factor_names(self.size))
+        own = (self.residual_names, self.h_names, self.r_names, factor_names(self.layout))
         delta = tuple(f"delta_{i}" for i in range(self.size))
         scales = tuple(f"row_variance_{i}" for i in range(self.rows))
         return own if self.row == 0 else (*own, delta, ("nis_before",), scales)
@@ -298,10 +309,10 @@ class FactoredRowUpdate(Kernel):
         residual, h, r, packed = values[:4]
         n = self.size
         terms = {j: value for (i, j), value in zip(self.h_pattern, h, strict=True) if i == self.row}
-        upper, diagonal = _upper_rows(n, packed)
+        upper, diagonal = _upper_rows(self.layout, packed)
         answer = list(packed)
         # f = U' h, g = D f; a is the variance of the innovation as far as the states up to j make it
-        f = [_total([terms.get(j), *[_product(upper[i][j], terms[i]) for i in terms if i < j]]) for j in range(n)]
+        f = [_total([terms.get(j), *[_product(upper[i].get(j), terms[i]) for i in terms if i < j]]) for j in range(n)]
         a: Any = r[self.row]
         per_a: Any = None
         gain: list[Any] = [None] * n
@@ -316,13 +327,13 @@ class FactoredRowUpdate(Kernel):
             # of a state measured alone a begins with r + d, and no later one is smaller
             far = per_before is not None and single is not None
             per_a = (a.reciprocal() if far else a.reciprocal_above(SMALLEST_VARIANCE)).named(f"per_a_{j}")
-            answer[packed_index(n, j, j)] = (diagonal[j] * (before * per_a)).named(f"new_d_{j}")
+            answer[self.layout.at(j, j)] = (diagonal[j] * (before * per_a)).named(f"new_d_{j}")
             loss: Any = None if per_before is None else (f[j] * per_before).named(f"loss_{j}")
-            for i in range(j):
+            for i in [i for i in range(j) if j in upper[i]]:
                 u = upper[i][j]
                 if gain[i] is not None and loss is not None:
                     # u - gain loss; in the measured row that is u r / a, which cancels nothing
-                    answer[packed_index(n, i, j)] = r[self.row] * loss if i == single else u - gain[i] * loss
+                    answer[self.layout.at(i, j)] = r[self.row] * loss if i == single else u - gain[i] * loss
                 gain[i] = _total([gain[i], u * g])
             gain[j] = g
         variance = a.named("s")
@@ -333,7 +344,9 @@ class FactoredRowUpdate(Kernel):
         weighted = (innovation * per_a).named("weighted_e")
         nis = innovation * weighted
         scales = [variance if k == self.row else None for k in range(self.rows)]
-        moved = [0.0 if item is None else item * weighted for item in gain]
+        read = {j for _, j in self.h_pattern}  # what no row of the sensor touches is not looked at afterwards
+        touched = {j for block in self.layout.parts if read & set(block) for j in block}
+        moved = [item * weighted if item is not None else 0.0 if j in touched else None for j, item in enumerate(gain)]
         if self.row > 0:
             moved = [old if item is None else old + item * weighted for old, item in zip(values[4], gain, strict=True)]
             nis = values[5][0] + nis
@@ -344,7 +357,7 @@ class FactoredRowUpdate(Kernel):
         residual, h, r, packed = values[:4]
         n, first = self.size, self.row == 0
         H = _full(self.h_pattern, h, (self.rows, n))[self.row]
-        root, own = root_of(packed, n), float(r[self.row])
+        root, own = root_of(packed, self.layout), float(r[self.row])
         delta = np.zeros(n) if first else values[4]
         nis = 0.0 if first else float(values[5][0])
         scales = np.ones(self.rows) if first else values[6].copy()
@@ -354,17 +367,17 @@ class FactoredRowUpdate(Kernel):
         divisor = variance if variance >= SMALLEST_VARIANCE else 1.0
         gain = root @ seen / divisor
         innovation = float(residual[self.row] - H @ delta)
-        factors = np.full(packed_size(n), np.nan)
+        factors = np.full(self.layout.count, np.nan)
         array = np.block([[root, np.zeros((n, 1))], [seen[None, :], np.sqrt(np.maximum(own, 0.0)) * np.ones((1, 1))]])
         if np.all(np.isfinite(array)):
             # an orthogonal transformation that clears all but the last element of the last row
             triangle = rq(array, check_finite=False)[0]
-            factors = factors_of_root(triangle[:n, :n])
+            factors = factors_of_root(triangle[:n, :n], self.layout)
         return [factors, delta + gain * innovation, np.array([nis + innovation**2 / divisor]), scales]
 
 
 @dataclass(frozen=True)
-class FactoredInnovationVariance(Kernel):
+class FactoredInnovationVariance(Packed):
     """Diagonal of H P H' + R at the prior, from the factors."""
 
     size: int
@@ -378,11 +391,12 @@ class FactoredInnovationVariance(Kernel):
     h_names: tuple[str, ...] = ()
     r_names: tuple[str, ...] = ()
     comment: tuple[str, ...] = ("variance of the innovation: diagonal of H U D U' H' + R",)
+    packing: Packing | None = None
 
     @property
     def reads(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
         """H, R and the factors."""
-        return ((self.h, len(self.h_pattern)), (self.r, len(self.r_pattern)), (self.p, packed_size(self.size)))
+        return ((self.h, len(self.h_pattern)), (self.r, len(self.r_pattern)), (self.p, self.layout.count))
 
     @property
     def writes(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
@@ -391,18 +405,18 @@ class FactoredInnovationVariance(Kernel):
 
     def names(self) -> tuple[tuple[str, ...], ...]:
         """Names of the elements it reads."""
-        return (self.h_names, self.r_names, factor_names(self.size))
+        return (self.h_names, self.r_names, factor_names(self.layout))
 
     def scalar(self, *values: list[Any]) -> list[list[Any]]:
         """Sums of squares."""
         h, r, packed = values
-        upper, diagonal = _upper_rows(self.size, packed)
+        upper, diagonal = _upper_rows(self.layout, packed)
         noise = dict(zip(self.r_pattern, r, strict=True))
         answer = []
         for row in range(self.rows):
             terms = {j: value for (i, j), value in zip(self.h_pattern, h, strict=True) if i == row}
             f = [
-                _total([terms.get(j), *[_product(upper[i][j], terms[i]) for i in terms if i < j]])
+                _total([terms.get(j), *[_product(upper[i].get(j), terms[i]) for i in terms if i < j]])
                 for j in range(self.size)
             ]
             answer.append(
@@ -413,13 +427,13 @@ class FactoredInnovationVariance(Kernel):
     def dense(self, *values: Array) -> list[Array]:
         """The same with matrices."""
         h, r, packed = values
-        seen = _full(self.h_pattern, h, (self.rows, self.size)) @ root_of(packed, self.size)
+        seen = _full(self.h_pattern, h, (self.rows, self.size)) @ root_of(packed, self.layout)
         noise = dict(zip(self.r_pattern, r, strict=True))
         return [np.array([seen[i] @ seen[i] + noise[i, i] for i in range(self.rows)])]
 
 
 @dataclass(frozen=True)
-class ScaleFactors(Kernel):
+class ScaleFactors(Packed):
     """P -> factor P: D is multiplied, U stays."""
 
     size: int
@@ -427,26 +441,27 @@ class ScaleFactors(Kernel):
     p: Place
     target: Place
     comment: tuple[str, ...] = ("P = factor P: D is scaled",)
+    packing: Packing | None = None
 
     @property
     def reads(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
         """Factor and factors."""
-        return ((self.factor, 1), (self.p, packed_size(self.size)))
+        return ((self.factor, 1), (self.p, self.layout.count))
 
     @property
     def writes(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
         """The factors."""
-        return ((self.target, packed_size(self.size)),)
+        return ((self.target, self.layout.count),)
 
     def names(self) -> tuple[tuple[str, ...], ...]:
         """Names of the elements it reads."""
-        return (("factor",), factor_names(self.size))
+        return (("factor",), factor_names(self.layout))
 
     def scalar(self, *values: list[Any]) -> list[list[Any]]:
         """Element by element."""
-        diagonal = {packed_index(self.size, i, i) for i in range(self.size)}
+        diagonal = set(self.layout.diagonal)
         return [[values[0][0] * item if k in diagonal else item for k, item in enumerate(values[1])]]
 
     def dense(self, *values: Array) -> list[Array]:
         """Triangularise the scaled root."""
-        return [factors_of_root(np.sqrt(values[0][0]) * root_of(values[1], self.size))]
+        return [factors_of_root(np.sqrt(values[0][0]) * root_of(values[1], self.layout), self.layout)]

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..reference import estimators as textbook
+from .block import Block
 from .errors import ModelError
 from .factors import (
     FactoredCongruence,
@@ -29,13 +30,12 @@ from .program import (
     HoldFactors,
     HoldVariances,
     Kernel,
+    Packing,
     Place,
     Refuse,
     Statement,
     Within,
-    packed_index,
-    packed_size,
-    unpack_symmetric,
+    walk,
 )
 from .signals import Signal, Status
 
@@ -67,26 +67,33 @@ class Conventional:
     note = "Covariance packed (upper triangle by rows); one scalar update for each sensor row."
     row_kernel: type[Kernel] = RowUpdate
 
-    def __init__(self, size: int, floor: tuple[float, ...], ceiling: tuple[float, ...]):
-        self.size, self.floor, self.ceiling = size, floor, ceiling
+    def __init__(self, packing: Packing, floor: tuple[float, ...], ceiling: tuple[float, ...]):
+        self.packing, self.size, self.floor, self.ceiling = packing, packing.size, floor, ceiling
+        self.stored = packing if packing.blocks else None  # kernels are told only of what is no whole triangle
         self.before, self.after = Place("memory", self.field), Place("next", self.field)
 
     def signal(self) -> Signal:
         """Return the field of the memory."""
         lows, highs = [], []
-        for i in range(self.size):
-            for j in range(i, self.size):
-                top = math.sqrt(self.ceiling[i] * self.ceiling[j])
-                lows.append(self.floor[i] if i == j else -top)
-                highs.append(self.ceiling[i] if i == j else top)
-        doc = "covariance of the error, upper triangle by rows"
-        return Signal(self.field, packed_size(self.size), "", tuple(lows), tuple(highs), doc)
+        for i, j in self.packing.pairs:
+            top = math.sqrt(self.ceiling[i] * self.ceiling[j])
+            lows.append(self.floor[i] if i == j else -top)
+            highs.append(self.ceiling[i] if i == j else top)
+        doc = f"covariance of the error, {self.order()}"
+        return Signal(self.field, self.packing.count, "", tuple(lows), tuple(highs), doc)
+
+    def order(self) -> str:
+        """Return in words in which order elements are stored."""
+        if not self.packing.blocks:
+            return "upper triangle by rows"
+        told = " ".join(f"({' '.join(map(str, block))})" for block in self.packing.blocks)
+        return f"upper triangles by rows of its blocks {told}; the rest is zero by structure"
 
     def start(self, variances: list[Element]) -> list[Statement]:
         """Return the statements of `init`: these variances, nothing beside the diagonal."""
-        body: list[Statement] = [Assign(self.after, 0.0, packed_size(self.size))]
+        body: list[Statement] = [Assign(self.after, 0.0, self.packing.count)]
         for k, variance in enumerate(variances):
-            body.append(AssignElement(Element(self.after, packed_index(self.size, k, k)), variance))
+            body.append(AssignElement(Element(self.after, self.packing.at(k, k)), variance))
         return body
 
     def propagate(
@@ -99,18 +106,22 @@ class Conventional:
         q_names: tuple[str, ...],
     ) -> list[Statement]:
         """P = F P F' + Q."""
-        return [Congruence(self.size, f, f_pattern, self.before, q, q_pattern, self.after, f_names, q_names)]
+        return [
+            Congruence(
+                self.size, f, f_pattern, self.before, q, q_pattern, self.after, f_names, q_names, packing=self.stored
+            )
+        ]
 
     def innovation_variance(self, rows: Rows, r_pattern: Pattern, r_names: tuple[str, ...]) -> Kernel:
         """Diagonal of H P H' + R at the prior."""
         return InnovationVariance(
             self.size, rows.count, rows.h, rows.h_pattern, rows.r, r_pattern, self.before, Place("out", "variance"),
-            rows.h_names, r_names,
+            rows.h_names, r_names, packing=self.stored,
         )  # fmt: skip
 
     def takes_all_states(self, rows: Rows) -> bool:
         """Whether the rows are taken by a kernel that serves them all, from the reported innovation."""
-        return AllStatesUpdate.serves(self.size, rows.columns(), list(rows.single))
+        return not self.stored and AllStatesUpdate.serves(self.size, rows.columns(), list(rows.single))
 
     def update(self, rows: Rows) -> list[Statement]:
         """One scalar update after another."""
@@ -124,23 +135,23 @@ class Conventional:
         return RowUpdate(
             self.size, row, rows.residual, rows.count, rows.h, rows.h_pattern, rows.r, rows.count,
             self.before if row == 0 else self.after, self.after, rows.single[row], rows.h_names, rows.r_names,
-            rows.residual_names, (f"{text}d = d + K e, P = P - K s K'{tail}",),
+            rows.residual_names, (f"{text}d = d + K e, P = P - K s K'{tail}",), packing=self.stored,
         )  # fmt: skip
 
     def reset(self, g: Place, pattern: Pattern, names: tuple[str, ...]) -> Kernel:
         """P = G P G' for a corrected attitude."""
         return Congruence(
             self.size, g, pattern, self.after, None, (), self.after, names,
-            comment=("P = G P G', G = I - [d]x / 2 for an attitude",),
+            comment=("P = G P G', G = I - [d]x / 2 for an attitude",), packing=self.stored,
         )  # fmt: skip
 
     def inflate(self, factor: Place) -> Kernel:
         """P = factor P."""
-        return Scale(packed_size(self.size), factor, self.before, self.after, ("P = factor P",), self.size)
+        return Scale(self.packing.count, factor, self.before, self.after, ("P = factor P",), self.size, self.stored)
 
     def hold(self) -> list[Statement]:
         """Keep the variances between floor and ceiling, refuse what cannot be."""
-        return [HoldVariances(self.after, self.size, self.floor, self.ceiling)]
+        return [HoldVariances(self.after, self.size, self.floor, self.ceiling, self.stored)]
 
     def judge_report(self, rows: int) -> list[Statement]:
         """Refuse a variance of the innovation that is no number: of a covariance within its ranges there is none."""
@@ -156,7 +167,7 @@ class Conventional:
 
     def covariance(self, memory: Mapping[str, Any]) -> Array:
         """Return P (n, n) of a memory."""
-        return unpack_symmetric(np.asarray(memory[self.field], dtype=float), self.size)
+        return self.packing.unpack(np.asarray(memory[self.field], dtype=float))
 
     def scaled(self, memory: Mapping[str, Any], factor: float) -> dict[str, Any]:
         """Return the field of a memory whose covariance is multiplied by a factor."""
@@ -164,7 +175,7 @@ class Conventional:
 
     def sizes(self, memory: Mapping[str, Any], sigma: Array) -> Array:
         """Return the natural size of an error in each element of the field."""
-        return np.outer(sigma, sigma)[np.triu_indices(self.size)]
+        return self.packing.pack(np.outer(sigma, sigma))
 
 
 class Joseph(Conventional):
@@ -183,7 +194,7 @@ class Joseph(Conventional):
         return JosephRowUpdate(
             self.size, row, rows.residual, rows.count, rows.h, rows.h_pattern, rows.r, rows.count,
             self.before if row == 0 else self.after, self.after, False, rows.h_names, rows.r_names, rows.residual_names,
-            (f"{text}d = d + K e, P = (I - K H) P (I - K H)' + K r K'",),
+            (f"{text}d = d + K e, P = (I - K H) P (I - K H)' + K r K'",), packing=self.stored,
         )  # fmt: skip
 
 
@@ -197,13 +208,12 @@ class Factored(Conventional):
     def signal(self) -> Signal:
         """Return the field of the memory."""
         lows, highs = [], []
-        for i in range(self.size):
-            for j in range(i, self.size):
-                top = math.sqrt(self.ceiling[i] / self.floor[j])
-                lows.append(self.floor[i] if i == j else -top)
-                highs.append(self.ceiling[i] if i == j else top)
-        doc = "factors of the covariance U D U' of the error, upper triangle by rows: D on the diagonal, U beside it"
-        return Signal(self.field, packed_size(self.size), "", tuple(lows), tuple(highs), doc)
+        for i, j in self.packing.pairs:
+            top = math.sqrt(self.ceiling[i] / self.floor[j])
+            lows.append(self.floor[i] if i == j else -top)
+            highs.append(self.ceiling[i] if i == j else top)
+        doc = f"factors of the covariance U D U' of the error, {self.order()}: D on the diagonal, U beside it"
+        return Signal(self.field, self.packing.count, "", tuple(lows), tuple(highs), doc)
 
     def propagate(
         self,
@@ -217,7 +227,9 @@ class Factored(Conventional):
         """Time update of the factors; negative noise is refused."""
         diagonal = [Element(q, k) for k, (i, j) in enumerate(q_pattern) if i == j]
         return [
-            FactoredCongruence(self.size, f, f_pattern, self.before, q, q_pattern, self.after, f_names, q_names),
+            FactoredCongruence(
+                self.size, f, f_pattern, self.before, q, q_pattern, self.after, f_names, q_names, packing=self.stored
+            ),
             # after it: an analyser goes through what a judgement guards once for each of its comparisons
             Refuse(Status.NOT_POSITIVE, AllOf(tuple(Compare(item, ">=", 0.0) for item in diagonal))),
         ]
@@ -226,7 +238,7 @@ class Factored(Conventional):
         """Diagonal of H U D U' H' + R at the prior."""
         return FactoredInnovationVariance(
             self.size, rows.count, rows.h, rows.h_pattern, rows.r, r_pattern, self.before, Place("out", "variance"),
-            rows.h_names, r_names,
+            rows.h_names, r_names, packing=self.stored,
         )  # fmt: skip
 
     def takes_all_states(self, rows: Rows) -> bool:
@@ -239,23 +251,23 @@ class Factored(Conventional):
         return FactoredRowUpdate(
             self.size, row, rows.residual, rows.count, rows.h, rows.h_pattern, rows.r, rows.count,
             self.before if row == 0 else self.after, self.after, rows.h_names, rows.r_names, rows.residual_names,
-            (f"{text}d = d + K e, Bierman's update of U and D",),
+            (f"{text}d = d + K e, Bierman's update of U and D",), packing=self.stored,
         )  # fmt: skip
 
     def reset(self, g: Place, pattern: Pattern, names: tuple[str, ...]) -> Kernel:
         """P = G P G' for a corrected attitude."""
         return FactoredCongruence(
             self.size, g, pattern, self.after, None, (), self.after, names,
-            comment=("U D U' = G U D U' G', G = I - [d]x / 2 for an attitude",),
+            comment=("U D U' = G U D U' G', G = I - [d]x / 2 for an attitude",), packing=self.stored,
         )  # fmt: skip
 
     def inflate(self, factor: Place) -> Kernel:
         """P = factor P."""
-        return ScaleFactors(self.size, factor, self.before, self.after)
+        return ScaleFactors(self.size, factor, self.before, self.after, packing=self.stored)
 
     def hold(self) -> list[Statement]:
         """Keep variances below their ceilings and D above its floors, refuse what cannot be."""
-        return [HoldFactors(self.after, self.size, self.floor, self.ceiling)]
+        return [HoldFactors(self.after, self.size, self.floor, self.ceiling, self.stored)]
 
     def judge_report(self, rows: int) -> list[Statement]:
         """Refuse a variance of the innovation beyond 1e30: factors within their ranges may make one."""
@@ -268,30 +280,29 @@ class Factored(Conventional):
     def memory(self, given: dict[str, Any]) -> dict[str, Any]:
         """Return a plausible memory that has a covariance as one in this form."""
         rest = {name: value for name, value in given.items() if name != "covariance"}
-        return {**rest, self.field: textbook.factorised(given["covariance"])}
+        return {**rest, self.field: textbook.factorised(given["covariance"], self.packing.blocks)}
 
     def covariance(self, memory: Mapping[str, Any]) -> Array:
         """Return P (n, n) of a memory."""
-        return covariance_of(np.asarray(memory[self.field], dtype=float), self.size)
+        return covariance_of(np.asarray(memory[self.field], dtype=float), self.packing)
 
     def scaled(self, memory: Mapping[str, Any], factor: float) -> dict[str, Any]:
         """Return the field of a memory whose covariance is multiplied by a factor, as far as D may go."""
         answer = np.array(memory[self.field], dtype=float)
-        places = [packed_index(self.size, i, i) for i in range(self.size)]
+        places = list(self.packing.diagonal)
         answer[places] = np.clip(answer[places] * factor, self.floor, self.ceiling)
         return {self.field: answer}
 
     def sizes(self, memory: Mapping[str, Any], sigma: Array) -> Array:
         """Return for each element the change that moves some element of P by its sigma_i sigma_j."""
         n = self.size
-        table = np.zeros((n, n))
-        table[np.triu_indices(n)] = np.asarray(memory[self.field], dtype=float)
+        table = self.packing.upper(np.asarray(memory[self.field], dtype=float))
         weights = np.maximum(np.diag(table), 1e-300)
         upper = np.triu(table, 1) + np.eye(n)
         seen = np.max(np.abs(upper) / sigma[:, None], axis=0)  # of each column of U, in sigma
         answer = sigma[:, None] / (weights * seen)[None, :]
         answer[np.diag_indices(n)] = 1.0 / seen**2
-        return np.asarray(answer[np.triu_indices(n)])
+        return self.packing.pack(answer)
 
 
 FORMS: dict[str, type[Conventional]] = {form.name: form for form in (Conventional, Joseph, Factored)}
@@ -308,3 +319,23 @@ def form_named(name: str, owner: str) -> type[Conventional]:
     if name not in FORMS:
         raise ModelError(f"{owner}: the form {name!r} is not known; take one of {', '.join(map(repr, FORMS))}")
     return FORMS[name]
+
+
+def packing_of(block: Block, field: str) -> Packing | None:
+    """Return which elements of a symmetric matrix a field of the memory holds, or None if it holds none.
+
+    Parameters
+    ----------
+    block : Block
+        A filter, or a composition.
+    field : str
+        Dotted name, such as ``filter.covariance``.
+    """
+    part, _, rest = field.partition(".")
+    if rest:
+        return packing_of(block.parts[part], rest) if part in block.parts else None
+    for entry in block.entries.values():
+        for statement in walk(entry.body):
+            if isinstance(statement, HoldVariances) and statement.target.name == field:
+                return statement.layout
+    return None

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from .program import Array, Kernel, Place, pack_symmetric, packed_index, packed_size, unpack_symmetric
+from .program import Array, Kernel, Packing, Place
 
 Pattern = tuple[tuple[int, int], ...]
 """(row, column) of each structural nonzero, in the order in which the values come."""
@@ -33,8 +33,20 @@ def _product(first: Any, second: Any) -> Any:
     return None if first is None or second is None else first * second
 
 
-def _packed_names(size: int) -> tuple[str, ...]:
-    return tuple(f"p_{i}_{j}" for i in range(size) for j in range(i, size))
+def _packed_names(packing: Packing) -> tuple[str, ...]:
+    return tuple(f"p_{i}_{j}" for i, j in packing.pairs)
+
+
+class Packed(Kernel):
+    """A kernel on a packed symmetric matrix."""
+
+    size: int
+    packing: Packing | None
+
+    @property
+    def layout(self) -> Packing:
+        """Where its elements are stored."""
+        return self.packing or Packing(self.size)
 
 
 def _full(pattern: Pattern, values: Array, shape: tuple[int, int]) -> Array:
@@ -45,7 +57,7 @@ def _full(pattern: Pattern, values: Array, shape: tuple[int, int]) -> Array:
 
 
 @dataclass(frozen=True)
-class Congruence(Kernel):
+class Congruence(Packed):
     """P -> F P F' + Q, F sparse, P and the result packed, Q given on a pattern of its upper triangle."""
 
     size: int
@@ -58,21 +70,22 @@ class Congruence(Kernel):
     f_names: tuple[str, ...] = ()
     q_names: tuple[str, ...] = ()
     comment: tuple[str, ...] = ("P = F P F' + Q",)
+    packing: Packing | None = None
 
     @property
     def reads(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
         """F, P and Q."""
-        own = ((self.f, len(self.f_pattern)), (self.p, packed_size(self.size)))
+        own = ((self.f, len(self.f_pattern)), (self.p, self.layout.count))
         return own + (((self.q, len(self.q_pattern)),) if self.q else ())
 
     @property
     def writes(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
         """The new P."""
-        return ((self.target, packed_size(self.size)),)
+        return ((self.target, self.layout.count),)
 
     def names(self) -> tuple[tuple[str, ...], ...]:
         """Names of F's, P's and Q's elements."""
-        return (self.f_names, _packed_names(self.size)) + ((self.q_names,) if self.q else ())
+        return (self.f_names, _packed_names(self.layout)) + ((self.q_names,) if self.q else ())
 
     def scalar(self, *values: list[Any]) -> list[list[Any]]:
         """Sparse rows of F; each element of F P is formed once, and only where needed."""
@@ -90,30 +103,29 @@ class Congruence(Kernel):
 
         def half(i: int, k: int) -> Any:
             if (i, k) not in product:
-                product[i, k] = _total([value * p[packed_index(self.size, j, k)] for j, value in rows[i]])
-            return product[i, k]  # None where row i of F is empty
+                product[i, k] = _total([_product(value, self.layout.pick(p, j, k)) for j, value in rows[i]])
+            return product[i, k]  # None where it is zero by structure
 
         answer = []
-        for i in range(self.size):
-            for j in range(i, self.size):
-                value = _total([_product(coefficient, half(i, k)) for k, coefficient in rows[j]])
-                value = _total([value, noise.get((i, j))])
-                answer.append(0.0 if value is None else value)
+        for i, j in self.layout.pairs:
+            value = _total([_product(coefficient, half(i, k)) for k, coefficient in rows[j]])
+            value = _total([value, noise.get((i, j))])
+            answer.append(0.0 if value is None else value)
         return [answer]
 
     def dense(self, *values: Array) -> list[Array]:
         """The textbook product."""
         F = _full(self.f_pattern, values[0], (self.size, self.size))
-        P = unpack_symmetric(values[1], self.size)
+        P = self.layout.unpack(values[1])
         result = F @ P @ F.T
         if self.q:
             upper = _full(self.q_pattern, values[2], (self.size, self.size))
             result = result + upper + np.triu(upper, 1).T
-        return [pack_symmetric(0.5 * (result + result.T))]
+        return [self.layout.pack(0.5 * (result + result.T))]
 
 
 @dataclass(frozen=True)
-class RowUpdate(Kernel):
+class RowUpdate(Packed):
     """One row of a measurement: correct the error vector and the covariance by a scalar update.
 
     The row corrects with residual - H_i d, d being the correction of the rows before it; that is the batch update
@@ -138,6 +150,7 @@ class RowUpdate(Kernel):
     delta: Place = Place("local", "delta")
     scales: Place = Place("local", "row_variance")
     nis: Place = Place("local", "nis")
+    packing: Packing | None = None
 
     @property
     def reads(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
@@ -146,7 +159,7 @@ class RowUpdate(Kernel):
             (self.residual, self.rows),
             (self.h, len(self.h_pattern)),
             (self.r, self.r_count),
-            (self.p, packed_size(self.size)),
+            (self.p, self.layout.count),
         )
         return own if self.row == 0 else (*own, (self.delta, self.size), (self.nis, 1), (self.scales, self.rows))
 
@@ -154,7 +167,7 @@ class RowUpdate(Kernel):
     def writes(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
         """P, the correction, NIS, and the variances of the rows."""
         return (
-            (self.target, packed_size(self.size)),
+            (self.target, self.layout.count),
             (self.delta, self.size),
             (self.nis, 1),
             (self.scales, self.rows),
@@ -162,7 +175,7 @@ class RowUpdate(Kernel):
 
     def names(self) -> tuple[tuple[str, ...], ...]:
         """Names of the elements it reads."""
-        own = (self.residual_names, self.h_names, self.r_names, _packed_names(self.size))
+        own = (self.residual_names, self.h_names, self.r_names, _packed_names(self.layout))
         delta = tuple(f"delta_{i}" for i in range(self.size))
         scales = tuple(f"row_variance_{i}" for i in range(self.rows))
         return own if self.row == 0 else (*own, delta, ("nis_before",), scales)
@@ -173,7 +186,7 @@ class RowUpdate(Kernel):
         first = self.row == 0
         n, r_i = self.size, r[self.row]
         terms = [(j, value) for (i, j), value in zip(self.h_pattern, h, strict=True) if i == self.row]
-        cross = [_total([value * p[packed_index(n, k, j)] for j, value in terms]) for k in range(n)]
+        cross = [_total([_product(value, self.layout.pick(p, k, j)) for j, value in terms]) for k in range(n)]
         variance = _total([value * cross[j] for j, value in terms]) + r_i
         per_variance = variance.named("s").reciprocal_above(SMALLEST_VARIANCE).named("per_s")
         innovation = residual[self.row]
@@ -182,31 +195,41 @@ class RowUpdate(Kernel):
         innovation = innovation.named("e")
         # n = -K: each element is then a product and a sum, one instruction less than with a difference
         minus = (-per_variance).named("minus_per_s")
-        loss = [(item * minus).named(f"n_{k}") for k, item in enumerate(cross)]
+        loss: list[Any] = [None if item is None else (item * minus).named(f"n_{k}") for k, item in enumerate(cross)]
         minus_innovation = (-innovation).named("minus_e")
         nis = innovation * (innovation * per_variance)
-        delta = [item * minus_innovation for item in loss]
+        delta = self._corrected(values, [_product(item, minus_innovation) for item in loss])
         scales = [variance if k == self.row else None for k in range(self.rows)]
         if not first:
-            delta = [old + new for old, new in zip(values[4], delta, strict=True)]
             nis = values[5][0] + nis
         measured = terms[0][0] if self.single else -1
         minus_r = (-r_i).named("minus_r")
         updated = []
-        for i in range(n):
-            for j in range(i, n):
-                if measured in (i, j):
-                    updated.append(minus_r * loss[i + j - measured])
-                else:
-                    updated.append(p[packed_index(n, i, j)] + loss[i] * cross[j])
+        for i, j in self.layout.pairs:
+            if loss[i] is None or loss[j] is None:
+                updated.append(self.layout.pick(p, i, j))
+            elif measured in (i, j):
+                updated.append(minus_r * loss[i + j - measured])
+            else:
+                updated.append(self.layout.pick(p, i, j) + loss[i] * cross[j])
         return [updated, delta, [nis], scales]
+
+    def _corrected(self, values: tuple[list[Any], ...], step: list[Any]) -> list[Any]:
+        """Return the correction of the rows so far; what a row does not correlate with it leaves."""
+        if self.row > 0:
+            return [
+                _total([old, item]) if item is not None else None for old, item in zip(values[4], step, strict=True)
+            ]
+        read = {j for _, j in self.h_pattern}  # what no row of the sensor touches is not looked at afterwards
+        touched = {j for block in self.layout.parts if read & set(block) for j in block}
+        return [0.0 if item is None and j in touched else item for j, item in enumerate(step)]
 
     def dense(self, *values: Array) -> list[Array]:
         """The same update with matrices, in Joseph's form."""
         residual, h, r, p = values[:4]
         first = self.row == 0
         H = _full(self.h_pattern, h, (self.rows, self.size))[self.row]
-        P = unpack_symmetric(p, self.size)
+        P = self.layout.unpack(p)
         delta = np.zeros(self.size) if first else values[4]
         nis = 0.0 if first else float(values[5][0])
         scales = np.ones(self.rows) if first else values[6].copy()
@@ -217,7 +240,7 @@ class RowUpdate(Kernel):
         keep = np.eye(self.size) - np.outer(gain, H)
         updated = keep @ P @ keep.T + r[self.row] * np.outer(gain, gain)
         nis += innovation * innovation / (variance if variance >= SMALLEST_VARIANCE else 1.0)
-        return [pack_symmetric(updated), delta + gain * innovation, np.array([nis]), scales]
+        return [self.layout.pack(updated), delta + gain * innovation, np.array([nis]), scales]
 
 
 @dataclass(frozen=True)
@@ -232,27 +255,30 @@ class JosephRowUpdate(RowUpdate):
         residual, h, r, p = values[:4]
         n, r_i = self.size, r[self.row]
         terms = [(j, value) for (i, j), value in zip(self.h_pattern, h, strict=True) if i == self.row]
-        cross = [_total([value * p[packed_index(n, k, j)] for j, value in terms]) for k in range(n)]
+        cross = [_total([_product(value, self.layout.pick(p, k, j)) for j, value in terms]) for k in range(n)]
         variance = (_total([value * cross[j] for j, value in terms]) + r_i).named("s")
         per_variance = variance.reciprocal_above(SMALLEST_VARIANCE).named("per_s")
         innovation = residual[self.row]
         if self.row > 0:
             innovation = innovation - _total([value * values[4][j] for j, value in terms])
         innovation = innovation.named("e")
-        gain = [(item * per_variance).named(f"k_{k}") for k, item in enumerate(cross)]
+        gain: list[Any] = [
+            None if item is None else (item * per_variance).named(f"k_{k}") for k, item in enumerate(cross)
+        ]
         # element (i, j) of A is p_ij - k_i (h P)_j; of A h', (P h')_i - k_i h P h'
         spread = variance - r_i
-        kept = [item - gain[k] * spread for k, item in enumerate(cross)]
-        noisy = [item * r_i for item in gain]
+        kept: list[Any] = [None if item is None else item - gain[k] * spread for k, item in enumerate(cross)]
+        noisy = [_product(item, r_i) for item in gain]
         updated = []
-        for i in range(n):
-            for j in range(i, n):
-                half = p[packed_index(n, i, j)] - gain[i] * cross[j]
-                updated.append((half - kept[i] * gain[j]) + noisy[i] * gain[j])
+        for i, j in self.layout.pairs:
+            if gain[i] is None or gain[j] is None:
+                updated.append(self.layout.pick(p, i, j))
+                continue
+            half = self.layout.pick(p, i, j) - gain[i] * cross[j]
+            updated.append((half - kept[i] * gain[j]) + noisy[i] * gain[j])
         nis = innovation * (innovation * per_variance)
-        delta = [item * innovation for item in gain]
+        delta = self._corrected(values, [_product(item, innovation) for item in gain])
         if self.row > 0:
-            delta = [old + new for old, new in zip(values[4], delta, strict=True)]
             nis = values[5][0] + nis
         scales = [variance if k == self.row else None for k in range(self.rows)]
         return [updated, delta, [nis], scales]
@@ -311,7 +337,7 @@ class AllStatesUpdate(Kernel):
 
 
 @dataclass(frozen=True)
-class InnovationVariance(Kernel):
+class InnovationVariance(Packed):
     """Diagonal of H P H' + R at the prior."""
 
     size: int
@@ -325,6 +351,7 @@ class InnovationVariance(Kernel):
     h_names: tuple[str, ...] = ()
     r_names: tuple[str, ...] = ()
     comment: tuple[str, ...] = ("variance of the innovation: diagonal of H P H' + R",)
+    packing: Packing | None = None
 
     @property
     def reads(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
@@ -332,7 +359,7 @@ class InnovationVariance(Kernel):
         return (
             (self.h, len(self.h_pattern)),
             (self.r, len(self.r_pattern)),
-            (self.p, packed_size(self.size)),
+            (self.p, self.layout.count),
         )
 
     @property
@@ -342,7 +369,7 @@ class InnovationVariance(Kernel):
 
     def names(self) -> tuple[tuple[str, ...], ...]:
         """Names of the elements it reads."""
-        return (self.h_names, self.r_names, _packed_names(self.size))
+        return (self.h_names, self.r_names, _packed_names(self.layout))
 
     def scalar(self, *values: list[Any]) -> list[list[Any]]:
         """Sparse quadratic forms."""
@@ -351,7 +378,7 @@ class InnovationVariance(Kernel):
         answer = []
         for row in range(self.rows):
             terms = [(j, value) for (i, j), value in zip(self.h_pattern, h, strict=True) if i == row]
-            cross = [_total([a * p[packed_index(self.size, j, k)] for k, a in terms]) for j, _ in terms]
+            cross = [_total([_product(a, self.layout.pick(p, j, k)) for k, a in terms]) for j, _ in terms]
             answer.append(_total([a * item for (_, a), item in zip(terms, cross, strict=True)]) + noise[row, row])
         return [answer]
 
@@ -360,7 +387,7 @@ class InnovationVariance(Kernel):
         h, r, p = values
         H = _full(self.h_pattern, h, (self.rows, self.size))
         noise = dict(zip(self.r_pattern, r, strict=True))
-        spread = np.diag(H @ unpack_symmetric(p, self.size) @ H.T)
+        spread = np.diag(H @ self.layout.unpack(p) @ H.T)
         return [np.array([spread[i] + noise[i, i] for i in range(self.rows)])]
 
 
@@ -531,6 +558,7 @@ class Scale(Kernel):
     target: Place
     comment: tuple[str, ...] = ()
     symmetric: int = 0
+    packing: Packing | None = None
 
     @property
     def reads(self) -> tuple[tuple[Place, int], ...]:  # type: ignore[override]
@@ -544,7 +572,8 @@ class Scale(Kernel):
 
     def names(self) -> tuple[tuple[str, ...], ...]:
         """Names of the elements it reads."""
-        elements = _packed_names(self.symmetric) if self.symmetric else tuple(f"v_{i}" for i in range(self.size))
+        packing = self.packing or Packing(self.symmetric)
+        elements = _packed_names(packing) if self.symmetric else tuple(f"v_{i}" for i in range(self.size))
         return (("factor",), elements)
 
     def scalar(self, *values: list[Any]) -> list[list[Any]]:

@@ -432,18 +432,22 @@ class HoldVariances:
     size: int
     floor: tuple[float, ...]
     ceiling: tuple[float, ...]
+    packing: Packing | None = None
+
+    @property
+    def layout(self) -> Packing:
+        """Where the elements of the matrix are stored."""
+        return self.packing or Packing(self.size)
 
     def limits(self) -> tuple[float, ...]:
         """Return the largest magnitude of each packed element: sqrt(c_i c_j)."""
         return tuple(
-            self.ceiling[i] if i == j else math.sqrt(self.ceiling[i] * self.ceiling[j])
-            for i in range(self.size)
-            for j in range(i, self.size)
+            self.ceiling[i] if i == j else math.sqrt(self.ceiling[i] * self.ceiling[j]) for i, j in self.layout.pairs
         )
 
     def run(self, frame: Frame) -> None:
         packed = np.array(frame.values[self.target], dtype=float)
-        diagonal = [packed_index(self.size, i, i) for i in range(self.size)]
+        diagonal = self.layout.diagonal
         before = frame.values.get(Place("memory", self.target.name))
         for i, (low, high) in enumerate(zip(self.floor, self.ceiling, strict=True)):
             natural = float(before[diagonal[i]]) if before is not None else None
@@ -461,14 +465,15 @@ class HoldVariances:
                 value = packed[diagonal[i]]
                 if value > high:
                     factor = np.sqrt(high / value)
-                    for j in range(self.size):
+                    block = next(rows for rows in self.layout.parts if i in rows)
+                    for j in block:
                         if j != i:
-                            packed[packed_index(self.size, i, j)] *= factor
+                            packed[self.layout.at(i, j)] *= factor
                     packed[diagonal[i]] = high
                     frame.visited(self, "above the ceiling")
-                    if i > 0:
+                    if i > block[0]:
                         frame.visited(self, "above the ceiling, not the first")
-                    if i < self.size - 1:
+                    if i < block[-1]:
                         frame.visited(self, "above the ceiling, not the last")
                     frame.raise_to(Status.CLAMPED)
                 elif value < low:
@@ -495,9 +500,7 @@ class HoldFactors(HoldVariances):
     def limits(self) -> tuple[float, ...]:
         """Return the largest magnitude of each packed element."""
         return tuple(
-            self.ceiling[i] if i == j else math.sqrt(self.ceiling[i] / self.floor[j])
-            for i in range(self.size)
-            for j in range(i, self.size)
+            self.ceiling[i] if i == j else math.sqrt(self.ceiling[i] / self.floor[j]) for i, j in self.layout.pairs
         )
 
     def certain(self) -> tuple[float, float]:
@@ -511,7 +514,7 @@ class HoldFactors(HoldVariances):
 
     def run(self, frame: Frame) -> None:
         packed = np.array(frame.values[self.target], dtype=float)
-        n, diagonal = self.size, [packed_index(self.size, i, i) for i in range(self.size)]
+        n, diagonal = self.size, list(self.layout.diagonal)
         floor, ceiling = np.array(self.floor), np.array(self.ceiling)
         before = frame.values.get(Place("memory", self.target.name))
         most, total = self.certain()
@@ -526,8 +529,7 @@ class HoldFactors(HoldVariances):
         if not np.all(packed[diagonal] >= 0):
             raise Refused(Status.NOT_POSITIVE)
         with np.errstate(all="ignore"):
-            table = np.zeros((n, n))
-            table[np.triu_indices(n)] = packed
+            table = self.layout.upper(packed)
             upper, weights = np.triu(table, 1) + np.eye(n), np.diag(table).copy()
             variances = (upper * upper) @ weights
             scale = np.where(variances > ceiling, np.sqrt(ceiling / variances), 1.0)
@@ -543,7 +545,7 @@ class HoldFactors(HoldVariances):
                 frame.raise_to(Status.CLAMPED)
             table = np.triu(upper, 1)
             table[np.diag_indices(n)] = np.maximum(weights, floor)
-            packed = table[np.triu_indices(n)]
+            packed = self.layout.pack(table)
         for value, limit in zip(packed, self.limits(), strict=True):
             frame.near(abs(float(value)), limit)
         frame.values[self.target] = packed
@@ -776,6 +778,106 @@ def walk(statements: Sequence[Statement]) -> Iterator[Statement]:
             yield from statement.calls
             yield from walk(statement.accepted)
             yield from walk(statement.on_refused)
+
+
+@dataclass(frozen=True)
+class Packing:
+    """Which elements of a symmetric matrix are stored, and in which order.
+
+    Block after block, each its upper triangle by rows; what is in no block is zero and has no place. A matrix of one block
+    is its upper triangle by rows.
+
+    Attributes
+    ----------
+    size : int
+        Rows of the matrix.
+    blocks : tuple of tuple of int
+        Rows of each block, rising; empty for one block of all of them.
+    """
+
+    size: int
+    blocks: tuple[tuple[int, ...], ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.blocks and sorted(row for block in self.blocks for row in block) != list(range(self.size)):
+            raise ValueError(f"blocks {self.blocks} are no partition of {self.size} rows")
+        if len(self.blocks) == 1:
+            object.__setattr__(self, "blocks", ())
+
+    @property
+    def parts(self) -> tuple[tuple[int, ...], ...]:
+        """Rows of each block, also where there is one."""
+        return self.blocks or (tuple(range(self.size)),)
+
+    @property
+    def pairs(self) -> tuple[tuple[int, int], ...]:
+        """(row, column) of each stored element, row <= column."""
+        return _pairs(self)
+
+    @property
+    def count(self) -> int:
+        """Number of stored elements."""
+        return sum(packed_size(len(block)) for block in self.parts)
+
+    @property
+    def diagonal(self) -> tuple[int, ...]:
+        """Where each element of the diagonal is stored, row by row."""
+        table = _table(self)
+        return tuple(table[i, i] for i in range(self.size))
+
+    def index(self, i: int, j: int) -> int | None:
+        """Return where element (i, j) is stored, or None if it is zero by structure."""
+        return _table(self).get((i, j))
+
+    def at(self, i: int, j: int) -> int:
+        """Return where an element is stored that is."""
+        return _table(self)[i, j]
+
+    def pick(self, packed: Any, i: int, j: int) -> Any:
+        """Return an element of what is packed, or None if it is zero by structure."""
+        place = _table(self).get((i, j))
+        return None if place is None else packed[place]
+
+    def pack(self, full: Any) -> Array:
+        """Return the stored elements of a matrix."""
+        rows, columns = _stored(self)
+        return np.asarray(np.asarray(full)[rows, columns])
+
+    def unpack(self, packed: Array) -> Array:
+        """Return the full symmetric matrix (size, size)."""
+        if not self.blocks:
+            return packed[_places(self.size)]
+        answer = np.zeros((self.size, self.size), dtype=packed.dtype)
+        rows, columns = _stored(self)
+        answer[rows, columns] = packed
+        answer[columns, rows] = packed
+        return answer
+
+    def upper(self, packed: Array) -> Array:
+        """Return the upper triangle of it, zeros below: that of factors."""
+        answer = np.zeros((self.size, self.size), dtype=packed.dtype)
+        answer[_stored(self)] = packed
+        return answer
+
+
+@lru_cache
+def _pairs(packing: Packing) -> tuple[tuple[int, int], ...]:
+    return tuple((block[a], j) for block in packing.parts for a in range(len(block)) for j in block[a:])
+
+
+@lru_cache
+def _table(packing: Packing) -> dict[tuple[int, int], int]:
+    table = {}
+    for place, (i, j) in enumerate(_pairs(packing)):
+        table[i, j] = table[j, i] = place
+    return table
+
+
+@lru_cache
+def _stored(packing: Packing) -> tuple[Array, Array]:
+    """Return rows and columns of the stored elements."""
+    pairs = np.array(_pairs(packing), dtype=int).reshape(-1, 2)
+    return pairs[:, 0], pairs[:, 1]
 
 
 def packed_index(size: int, i: int, j: int) -> int:

@@ -20,7 +20,6 @@ from .program import (
     Refuse,
     Statement,
     Within,
-    packed_index,
 )
 
 Interval = tuple[float, float]
@@ -97,7 +96,7 @@ def _is_met(known: dict[Element, Interval], condition: Condition) -> bool:
 def _is_held(known: dict[Element, Interval], statement: HoldVariances) -> bool:
     """Whether every variance is between floor and ceiling, and what lies beside them within its bounds."""
     limits = statement.limits()
-    diagonal = {packed_index(statement.size, i, i): i for i in range(statement.size)}
+    diagonal = {place: i for i, place in enumerate(statement.layout.diagonal)}
     return all(
         _is_within(
             known, Element(statement.target, k), statement.floor[diagonal[k]] if k in diagonal else -limit, limit

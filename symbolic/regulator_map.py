@@ -1,4 +1,4 @@
-"""The Block of a regulator's power series: from the state of an exosystem to where the plant has to be."""
+"""The Blocks of a regulator's power series: where the plant has to be for the state of an exosystem, and what follows it."""
 
 from __future__ import annotations
 
@@ -13,11 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..reference import power_series as reference
+from ..reference.controllers import StateFeedback
 from .block import Block, Design, Table
-from .components import Calls, finish, rounded_up
+from .components import Calls, finish, matrix_of, rounded_up
+from .design import Gain
 from .errors import ModelError
 from .plant import Plant, Symbol, wrap
 from .power_series import RegulatorSeries
+from .regulator_equations import closed_loop
 from .signals import Signal, spread
 
 Array = NDArray[Any]
@@ -69,28 +72,9 @@ def regulator_map(series: RegulatorSeries, *, amplitude: Any, name: str = "", do
     ['position', 'push']
     """
     plant = series.plant
-    name = name or f"{plant.name}_map"
-    reach = _amplitude(name, amplitude, len(series.exosystem_states))
-    block = Block(
-        name,
-        doc=doc or f'where the plant "{plant.name}" has to be for the state of its exosystem, to degree {series.order}',
-    )
-    taken = _declare_generator(block, series, reach)
-    signals = [*[state.signal for state in plant.states], *_acting(series)]
-    values = {**series.point.states, **series.point.inputs}
-    wanted = {}
-    for signal in signals:
-        wanted[signal.name] = block.parameter(
-            signal.name, values[signal.name], unit=signal.unit, range=(signal.low, signal.high),
-            doc=f"{signal.name} where w is zero",
-        )  # fmt: skip
-    groups = _declare_coefficients(block, series)
-    pi, gamma = series.expressions(ca.vertcat(*taken), *groups)
-    outputs, rows, start = {}, ca.vertcat(pi, gamma), 0
-    for signal in signals:
-        value = wanted[signal.name] + rows[start : start + signal.size]
-        outputs[signal.name] = wrap(value) if signal.angle else value
-        start += signal.size
+    block = Block(name or f"{plant.name}_map", doc=doc or f"where the plant {_said(series)}")
+    taken, reach = _declare_generator(block, series, amplitude)
+    outputs, signals = _declare_maps(block, series, taken)
     block.entry(
         "step",
         inputs=taken,
@@ -101,11 +85,95 @@ def regulator_map(series: RegulatorSeries, *, amplitude: Any, name: str = "", do
         doc="Where the plant has to be, and what keeps it there.",
     )
     block.sample_time = plant.dt if isinstance(plant.dt, float) else None
-    formula = reference.RegulatorMap(tuple(item.signal.name for item in taken), _rows(series, signals))
-    finish(block, {"step": formula}, _calls(taken, reach))
-    block.design = _design(block, series)
-    block.tables["what is left of the regulator equations"] = lambda: _table(series, reach)
-    return block
+    finish(block, {"step": _oracle(series, taken, signals)}, _calls(taken, reach))
+    return _recorded(block, series, reach, None)
+
+
+def regulator_feedback(
+    series: RegulatorSeries,
+    gain: Gain | Any,
+    *,
+    amplitude: Any,
+    saturate: bool = False,
+    accept_unstable: bool = False,
+    name: str = "",
+    doc: str = "",
+) -> Block:
+    """Return the controller u = u* + gamma(w) - K (x - x* - pi(w)).
+
+    Parameters
+    ----------
+    series : RegulatorSeries
+        pi and gamma; see `regulator_map`.
+    gain : Gain, or (acting inputs, n) array
+        K, by rows; the run-time parameter `gain`. That of a `Gain` goes through `design.json`, numbers of your own do not.
+    amplitude : float or sequence, shape (r,)
+        How large each element of w may be.
+    saturate : bool
+        Whether u is held within the ranges of the plant's inputs (status CLAMPED), or a call that leaves them refused (OVERFLOW).
+    accept_unstable : bool
+        Whether a K that does not stabilise the linearisation is accepted.
+    name, doc : str
+        Name of the block, default ``<plant>_regulator``, and its meaning.
+
+    Returns
+    -------
+    Block
+        Entries `init` and `step`, no memory. Inputs: `w` (or the states of an exosystem that is a Plant) and the states of the
+        plant; outputs: its acting inputs.
+
+    Raises
+    ------
+    RegulatorError
+        If the gain does not stabilise; the sentence has the largest real part, or the spectral radius.
+    ModelError
+        If the gain has another shape, or the amplitude is not positive.
+    """
+    plant = series.plant
+    block = Block(
+        name or f"{plant.name}_regulator",
+        doc=doc or f"follows the exosystem: u = u* + gamma(w) - K (x - x* - pi(w)), of the plant {_said(series)}",
+    )
+    K = gain.rounded() if isinstance(gain, Gain) else matrix_of(block.name, "gain", gain)
+    closed_loop(series.degrees[0].model, K, accept_unstable=accept_unstable)
+    taken, reach = _declare_generator(block, series, amplitude)
+    states = [
+        block.input(item.name, size=item.size, unit=item.unit, range=(item.low, item.high), doc=item.doc)
+        for item in (state.signal for state in plant.states)
+    ]
+    maps, signals = _declare_maps(block, series, taken)
+    size = _range_of(K)
+    rows = ca.reshape(
+        ca.SX(block.parameter("gain", K.ravel(), range=(-size, size), doc="K by rows")), K.shape[1], K.shape[0]
+    ).T
+    deviations = [(item.signal, item - maps[item.signal.name]) for item in states]
+    command, start = rows @ ca.vertcat(*[wrap(value) if own.angle else value for own, value in deviations]), 0
+    outputs, acting = {}, signals[len(states) :]
+    for signal in acting:
+        outputs[signal.name] = maps[signal.name] - command[start : start + signal.size]
+        start += signal.size
+    block.entry(
+        "step",
+        inputs=[*taken, *states],
+        outputs=outputs,
+        output_units={item.name: item.unit for item in acting},
+        output_ranges={item.name: (item.low, item.high) for item in acting},
+        output_docs={
+            item.name: f"{item.doc or 'command'}; keeps its last value when a call is refused" for item in acting
+        },
+        limits={item.name: (item.low, item.high) for item in acting} if saturate else {},
+        doc="The command for a state, and a state of the exosystem.",
+    )
+    block.sample_time = plant.dt if isinstance(plant.dt, float) else None
+    kinds = tuple((item.signal.name, "angle" if item.signal.angle else "plain") for item in states)
+    ends = tuple((item.name, item.size, np.array(item.low), np.array(item.high)) for item in acting)
+    feedback = reference.RegulatorFeedback(_oracle(series, taken, signals), StateFeedback(kinds, ends, saturate))
+    finish(block, {"step": feedback}, _calls(taken, reach, series, K))
+    return _recorded(block, series, reach, gain if isinstance(gain, Gain) else None)
+
+
+def _said(series: RegulatorSeries) -> str:
+    return f'"{series.plant.name}" has to be for the state of its exosystem, to degree {series.order}'
 
 
 def _amplitude(name: str, given: Any, size: int) -> Array:
@@ -120,19 +188,42 @@ def _amplitude(name: str, given: Any, size: int) -> Array:
     return reach
 
 
-def _declare_generator(block: Block, series: RegulatorSeries, reach: Array) -> list[Symbol]:
-    """Declare what w comes as."""
-    own = series.exosystem
+def _declare_generator(block: Block, series: RegulatorSeries, amplitude: Any) -> tuple[list[Symbol], Array]:
+    """Declare what w comes as; return it, and how large each element may be."""
+    reach, own = _amplitude(block.name, amplitude, len(series.exosystem_states)), series.exosystem
     if not isinstance(own, Plant):
         said = ", ".join(series.exosystem_states)
-        return [block.input("w", size=own.order, range=(-reach, reach), doc=f"state of the exosystem: {said}")]
+        return [block.input("w", size=own.order, range=(-reach, reach), doc=f"state of the exosystem: {said}")], reach
     answer, start = [], 0
     for state in own.states:
         signal = state.signal
         ends = reach[start : start + signal.size]
         answer.append(block.input(signal.name, size=signal.size, unit=signal.unit, range=(-ends, ends), doc=signal.doc))
         start += signal.size
-    return answer
+    return answer, reach
+
+
+def _declare_maps(block: Block, series: RegulatorSeries, taken: list[Symbol]) -> tuple[dict[str, ca.SX], list[Signal]]:
+    """Declare x*, u* and the coefficients; return x* + pi(w) and u* + gamma(w) by name, and their signals."""
+    signals = [*[state.signal for state in series.plant.states], *_acting(series)]
+    values = {**series.point.states, **series.point.inputs}
+    wanted = {
+        item.name: block.parameter(
+            item.name,
+            values[item.name],
+            unit=item.unit,
+            range=(item.low, item.high),
+            doc=f"{item.name} where w is zero",
+        )
+        for item in signals
+    }
+    rows, start = ca.vertcat(*series.expressions(ca.vertcat(*taken), *_declare_coefficients(block, series))), 0
+    answer = {}
+    for signal in signals:
+        value = wanted[signal.name] + rows[start : start + signal.size]
+        answer[signal.name] = wrap(value) if signal.angle else value
+        start += signal.size
+    return answer, signals
 
 
 def _acting(series: RegulatorSeries) -> list[Signal]:
@@ -158,10 +249,19 @@ def _declare_coefficients(block: Block, series: RegulatorSeries) -> list[ca.SX]:
         if not numbers.size:
             answer.append(ca.SX(0, 1))
             continue
-        reach = 10.0 ** (math.ceil(math.log10(max(rounded_up(float(np.max(np.abs(numbers)))), 1.0))) + 2)
+        reach = _range_of(numbers)
         said = f"coefficients that are not zero, of {', '.join(labels)}; of each by degree, monomials in graded lexicographic order"
         answer.append(ca.SX(block.parameter(group, numbers, range=(-reach, reach), doc=said)))
     return answer
+
+
+def _range_of(numbers: Array) -> float:
+    """Return how large designed numbers may be: a hundred times the largest, at least a hundred."""
+    return 10.0 ** (math.ceil(math.log10(max(rounded_up(float(np.max(np.abs(numbers)))), 1.0))) + 2)
+
+
+def _oracle(series: RegulatorSeries, taken: list[Symbol], signals: list[Signal]) -> reference.RegulatorMap:
+    return reference.RegulatorMap(tuple(item.signal.name for item in taken), _rows(series, signals))
 
 
 def _rows(
@@ -184,49 +284,75 @@ def _rows(
     return tuple(answer)
 
 
-def _calls(taken: list[Symbol], reach: Array) -> Calls:
-    """Return steps in which w wanders over its range, smoothly."""
+def _calls(taken: list[Symbol], reach: Array, series: RegulatorSeries | None = None, K: Array | None = None) -> Calls:
+    """Return steps in which w wanders over its range, smoothly, and where asked for a state about x* + pi(w).
+
+    The state is so near that u does not leave its range for its sake.
+    """
 
     def calls(rng: Any, steps: int) -> Iterator[tuple[str, dict[str, Any]]]:
         yield "init", {}
         drive = np.zeros(len(reach))
         for _ in range(steps):
             drive = 0.8 * drive + 0.6 * rng.normal(size=len(drive))
-            w, inputs, start = reach * np.tanh(drive), {}, 0
-            for symbol in taken:
-                inputs[symbol.signal.name] = w[start : start + symbol.signal.size]
-                start += symbol.signal.size
+            w = reach * np.tanh(drive)
+            inputs = _cut(w, [item.signal for item in taken])
+            if series is not None and K is not None:
+                inputs |= _near(series, K, w, rng)
             yield "step", inputs
 
     return calls
 
 
-def _design(block: Block, series: RegulatorSeries) -> Design:
-    """Return the record of the coefficients."""
+def _cut(vector: Array, signals: list[Signal]) -> dict[str, Any]:
+    """Return a vector by the names of its pieces."""
+    starts = np.cumsum([0, *[item.size for item in signals]])
+    return {item.name: vector[start : start + item.size] for item, start in zip(signals, starts, strict=False)}
 
-    def rebuild(values: dict[str, Any]) -> Block:
-        series.with_coefficients(values)  # refuses what does not fit
-        made = copy.copy(block)
-        defaults = {group: tuple(float(item) for item in np.ravel(values[group])) for group in GROUPS}
-        made.param_signals = [
-            replace(signal, default=defaults[signal.name]) if signal.name in GROUPS else signal
+
+def _near(series: RegulatorSeries, K: Array, w: Array, rng: Any) -> dict[str, Any]:
+    """Return a state near x* + pi(w), within the ranges."""
+    signals = [state.signal for state in series.plant.states]
+    low, high = (np.concatenate([getattr(item, end) for item in signals]) for end in ("low", "high"))
+    room = min(
+        (0.5 * (b - a) for item in _acting(series) for a, b in zip(item.low, item.high, strict=True)), default=1.0
+    )
+    spread_of = np.minimum(1.0, 0.05 * (high - low))
+    factor = min(1.0, 0.1 * room / max(float(np.max(np.sqrt(K**2 @ spread_of**2))), 1e-300))
+    x = series.point.x + series.at(w)[0] + factor * spread_of * rng.normal(size=len(low))
+    return _cut(np.clip(x, low, high), signals)
+
+
+def _recorded(block: Block, series: RegulatorSeries, reach: Array, gain: Gain | None) -> Block:
+    """Give a block its record of designed numbers, and the table of what its series leaves."""
+
+    def made_of(target: Block, values: dict[str, Any]) -> Block:
+        other = series.with_coefficients(values)  # refuses what does not fit
+        given = {name: np.ravel(np.asarray(item, dtype=float)) for name, item in values.items()}
+        if gain is not None and (given["gain"].size != gain.gain.size or not np.all(np.isfinite(given["gain"]))):
+            raise ModelError(
+                f"{block.name}: the gain of design.json has {given['gain'].size} numbers; give {gain.gain.size}"
+            )
+        target.param_signals = [
+            replace(signal, default=tuple(map(float, given[signal.name]))) if signal.name in given else signal
             for signal in block.param_signals
         ]
-        made.design = Design({group: np.ravel(values[group]) for group in GROUPS}, series.source(), rebuild, properties)
-        return made
+        target.tables = {"what is left of the regulator equations": lambda: _table(other, reach)}
+        target.design = Design(given, source, lambda new: made_of(copy.copy(block), new), properties)
+        return target
 
     def properties(values: dict[str, Any]) -> dict[str, tuple[float, float]]:
-        return series.properties(values)
+        return series.properties(values) | ({} if gain is None else gain.properties(values["gain"]))
 
-    return Design(dict(series.rounded()), series.source(), rebuild, properties)
+    source = series.source() if gain is None else f"{series.source()}-{gain.source()}"
+    return made_of(block, series.rounded() if gain is None else {**series.rounded(), "gain": gain.rounded()})
 
 
 def _table(series: RegulatorSeries, reach: Array) -> Table:
     """Measure what is left of the nonlinear equations over the range of w."""
-    held = series.with_coefficients(series.rounded())
     draws = np.random.default_rng(0).uniform(-1, 1, (POINTS, len(reach)))
     draws = reach * draws / np.max(np.abs(draws), axis=1, keepdims=True)  # on the faces of the box
-    worst = {share: max(float(np.linalg.norm(held.residual(share * w))) for w in draws) for share in (1.0, 0.5, 0.25)}
+    worst = {share: max(float(np.linalg.norm(series.residual(share * w))) for w in draws) for share in (1.0, 0.5, 0.25)}
     rows: list[tuple[str | int | float, ...]] = [(share, value) for share, value in worst.items()]
     return Table(
         f"What is left of the regulator equations, to degree {series.order}",

@@ -399,7 +399,7 @@ def still(*sensors, n=2, **options):
     plant.dynamics({x: x + plant.noise("w", size=n, variance=1e-3)})
     for sensor in sensors:
         sensor(plant, x)
-    return extended_kalman_filter(plant, initial_variance={x: 1.0}, **options)
+    return extended_kalman_filter(plant, initial_variance={x: 1.0}, correlated="all", **options)
 
 
 def batch(filter_, x, P, z, h, H, R):

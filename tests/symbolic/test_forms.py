@@ -234,8 +234,8 @@ def test_a_fault_in_a_factored_kernel_is_caught(monkeypatch, fault):
     if fault == "time":
         original = factors._triangularised
 
-        def wrong(rows, weights, positive):
-            answer = original(rows, weights, positive)
+        def wrong(*arguments):
+            answer = original(*arguments)
             answer[1] = -answer[1]
             return answer
 

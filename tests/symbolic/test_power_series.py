@@ -196,6 +196,15 @@ def test_s3_in_discrete_time_the_eigenvalue_is_a_product():
         regulator_series(plant, {}, turn, 2)
 
 
+def test_a_near_failure_of_a_degree_is_said_and_the_coefficients_grow():
+    for away in (1e-1, 1e-2, 1e-3):
+        square = (2 + away) ** 2
+        plant = plant_of("nearly", 3, lambda a, b, c, u, s=square: [u, c + a**2, -s * b])
+        series = regulator_series(plant, {}, harmonic("x1", 1.0), 2)
+        assert series.state_maps[1][1] == pytest.approx([0, 2 / (square - 4), 0], rel=1e-9, abs=1e-9)
+    assert any("degree 2: a transmission zero is 0.001 from the eigenvalue 0+-2j" in text for text in series.warnings)
+
+
 def test_too_few_inputs_may_fail_at_a_degree():
     plant = plant_of("two", 2, lambda a, b, u: [b, u + a**2])  # x2 = d/dt x1 at every degree
     generator = exosystem([[0, 1], [-1, 0]], np.eye(2), ["x1", "x2"])

@@ -9,9 +9,10 @@ from plantc.reference.power_series import Polynomial, RegulatorMap
 from plantc.symbolic import cos, sin
 from plantc.symbolic.exosystems import compose, constant, harmonic
 from plantc.symbolic.power_series import regulator_series
-from plantc.symbolic.regulator_map import regulator_map
+from plantc.symbolic.regulator_equations import RegulatorError
+from plantc.symbolic.regulator_map import regulator_feedback, regulator_map
 
-from plantc import ModelError, Plant, cross_check, trim
+from plantc import ModelError, Plant, cross_check, linearise, lqr, trim
 
 
 def cart_pole():
@@ -142,3 +143,95 @@ def test_the_oracle_keeps_single_precision():
     params = {"x": np.array([1], np.float32), "c": np.array([9, 2, 3], np.float32)}
     value = row.value(np.array([0.5, 0.25], np.float32), params)
     assert value.dtype == np.float32 and float(value) == 1 + 2 * 0.25 + 3 * 0.25
+
+
+# -- with feedback ----------------------------------------------------------------------------------------------------
+
+
+def gain_of(plant):
+    return lqr(linearise(plant), np.diag([10.0, 1, 10, 1]), np.eye(1))
+
+
+@pytest.fixture(scope="module")
+def regulator(series):
+    return regulator_feedback(series, gain_of(series.plant), amplitude=0.8, saturate=True)
+
+
+@pytest.mark.parametrize("precision", ["double", "float"])
+def test_the_c_of_a_regulator_is_what_numpy_says(needs, regulator, precision):
+    needs("gcc")
+    found = cross_check(regulator, precision)
+    assert found.passed and {"OK", "CLAMPED", "BAD_INPUT"} <= set(found.statuses)
+
+
+def test_the_law(series, regulator):
+    w, x = np.array([0.3, -0.2]), np.array([0.2, -0.3, 0.05, 0.1])
+    pi, gamma = series.at(w)
+    command = gamma - gain_of(series.plant).gain @ (x - pi)
+    out = run(regulator, w=w, p=x[0], v=x[1], tilt=x[2], rate=x[3]).outputs
+    assert out.dtype.names == ("push",) and float(out["push"]) == pytest.approx(command[0], rel=1e-7)
+    turned = run(regulator, w=w, p=x[0], v=x[1], tilt=3.1, rate=0.0)
+    assert turned.status.name == "CLAMPED" and abs(float(turned.outputs["push"])) == 20
+
+
+@pytest.mark.parametrize(("order", "expected"), [(1, 4.5e-3), (3, 4.4e-5), (5, 5.4e-7)])
+def test_the_block_holds_a_sampled_cart_pole_on_its_course(order, expected):
+    """RK4 over 10 ms, the command held: the series of that very map leaves no error of sampling, only of truncation."""
+    h = 0.01
+    sampled = cart_pole().discretise("rk4", dt=h)
+    series = regulator_series(sampled, {}, harmonic("p", 2.0).sampled(h), order)
+    view = InterpretView(regulator_feedback(series, gain_of(sampled), amplitude=0.8))
+    params = view.params()
+    memory, worst = view.init(params), 0.0
+    x = series.at([0.0, 0.4])[0]
+
+    def rate(x, u):
+        return np.array([x[1], u, x[3], (9.81 * np.sin(x[2]) - u * np.cos(x[2])) / 0.5])
+
+    for k in range(700):
+        t = k * h
+        w = 0.4 * np.array([np.sin(2 * t), np.cos(2 * t)])
+        given = view.inputs("step", {"w": w, "p": x[0], "v": x[1], "tilt": x[2], "rate": x[3]})
+        answer = view.call("step", memory, given, params)
+        assert answer.status >= 0
+        u = float(answer.outputs["push"])
+        k1 = rate(x, u)
+        k2 = rate(x + h / 2 * k1, u)
+        k3 = rate(x + h / 2 * k2, u)
+        x = x + h / 6 * (k1 + 2 * k2 + 2 * k3 + rate(x + h * k3, u))
+        worst = max(worst, abs(x[0] - 0.4 * np.sin(2 * (t + h)))) if t > 3.5 else worst
+    assert worst == pytest.approx(expected, rel=0.1)
+
+
+def test_the_record_of_a_regulator(series, regulator):
+    values = regulator.design.values
+    assert set(values) == {"state_coefficients", "input_coefficients", "gain"}
+    measured = regulator.design.properties(values)
+    assert all(value <= limit for value, limit in measured.values()) and len(measured) > series.order
+    again = regulator.design.rebuild({**values, "gain": 1.5 * values["gain"]})
+    assert again.design.source == regulator.design.source and list(again.tables) == list(regulator.tables)
+    defaults = {signal.name: signal.default for signal in again.param_signals}
+    assert defaults["gain"] == tuple(1.5 * values["gain"]) and defaults["push"] == (0.0,)
+    with pytest.raises(ModelError, match="the gain of design.json has 3 numbers; give 4"):
+        regulator.design.rebuild({**values, "gain": [1.0, 2.0, 3.0]})
+    own = regulator_feedback(series, gain_of(series.plant).gain, amplitude=0.8)
+    assert set(own.design.values) == {"state_coefficients", "input_coefficients"}
+
+
+def test_a_gain_that_does_not_stabilise_is_refused(series):
+    K = -gain_of(series.plant).gain
+    with pytest.raises(RegulatorError, match="largest real part .*; -K would, so look at its sign"):
+        regulator_feedback(series, K, amplitude=0.8)
+    assert "step" in regulator_feedback(series, K, amplitude=0.8, accept_unstable=True).entries
+    with pytest.raises(ModelError, match="the gain has shape"):
+        regulator_feedback(series, [[1.0, 2.0]], amplitude=0.8)
+
+
+def test_inputs_that_need_nothing_have_no_coefficients():
+    plant = Plant("still")
+    x, u = plant.state("x", range=(-9, 9)), plant.input("u", range=(-9, 9))
+    plant.dynamics({x: u})
+    block = regulator_map(regulator_series(plant, {}, constant("x"), 2), amplitude=1.0)
+    assert "input_coefficients" not in {signal.name for signal in block.param_signals}
+    assert [float(run(block, w=[0.5]).outputs[name]) for name in ("x", "u")] == [0.5, 0.0]
+    assert "step" in block.design.rebuild(block.design.values).entries

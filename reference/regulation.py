@@ -1,0 +1,158 @@
+"""Output regulation as plain NumPy: a Kalman filter and a high-gain observer as exosystems, the Francis equations, the loop.
+
+J. A. Meda-Campana et al., "The output regulation and the Kalman filter as the signal generator", IEEE Access 11, 2023.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .controllers import BAD_INPUT, BAD_PARAM, OVERFLOW, Array, Range
+
+
+def kalman_exosystem(
+    S: Array, Q: Array, D: Array, M: Array, readings: Array, present: Array | None = None, P: Array | None = None
+) -> tuple[Array, Array]:
+    """Return the corrected estimates and covariances of a signal generator's state (eqs. 50-61), w = 0 before the first reading.
+
+    Parameters
+    ----------
+    S : (r, r) array
+        Exosystem.
+    Q : (m, r) array
+        All signals, disturbances too.
+    D, M : (r, r) and (m, m) array
+        Covariances of process and readings.
+    readings : (steps, m) array
+        At k = 0, 1, ...; at k = 0 they correct without a prediction.
+    present : (steps, m) array of bool, optional
+        Which readings there are.
+    P : (r, r) array, optional
+        Covariance before the first reading; default the identity.
+
+    Returns
+    -------
+    array (steps, r), array (steps, r, r)
+        What the controller uses, and its covariance.
+    """
+    w, P = np.zeros(len(S)), np.eye(len(S)) if P is None else np.array(P, dtype=float)
+    estimates, covariances = [], []
+    for k, z in enumerate(readings):
+        if k:
+            w, P = S @ w, S @ P @ S.T + D
+        rows = np.flatnonzero(present[k]) if present is not None else np.arange(len(Q))
+        if len(rows):
+            H = Q[rows]
+            G = np.linalg.solve(H @ P @ H.T + M[np.ix_(rows, rows)], H @ P).T
+            w, P = w + G @ (z[rows] - H @ w), (np.eye(len(S)) - G @ H) @ P
+            P = (P + P.T) / 2
+        estimates.append(w)
+        covariances.append(P)
+    return np.array(estimates), np.array(covariances)
+
+
+def high_gain_exosystem(S: Array, gain: Array, readings: Array, initial: Array) -> Array:
+    """Return w_k = S w_(k-1) + gain psi_(k-1), what is known before the reading of step k, shape (steps, r)."""
+    w, found = np.array(initial, dtype=float), []
+    for z in readings:
+        found.append(w)
+        w = S @ w + gain @ np.atleast_1d(z)
+    return np.array(found)
+
+
+def francis(A: Array, B: Array, C: Array, S: Array, Q: Array, P: Array) -> tuple[Array, Array]:
+    """Return Pi and Gamma of Pi S = A Pi + B Gamma + P, C Pi = Q, by the whole Kronecker matrix and least squares."""
+    (n, p), m, r = B.shape, len(C), len(S)
+    eye = np.eye(r)
+    M = np.block(
+        [[np.kron(eye, A) - np.kron(S.T, np.eye(n)), np.kron(eye, B)], [np.kron(eye, C), np.zeros((m * r, p * r))]]
+    )
+    z = np.linalg.lstsq(M, np.concatenate([-P.ravel("F"), Q.ravel("F")]), rcond=None)[0]
+    return z[: n * r].reshape(r, n).T, z[n * r :].reshape(r, p).T
+
+
+def closed_loop(
+    f: Callable[[Array, Array], Array],
+    x: Array,
+    estimates: Array,
+    K: Array,
+    Pi: Array,
+    Gamma: Array,
+    equilibrium: tuple[Array, Array],
+) -> tuple[Array, Array]:
+    """Return states and inputs of x+ = f(x, u), u = u* + Gamma w - K (x - x* - Pi w), w being what a generator estimates.
+
+    Parameters
+    ----------
+    f : callable
+        One step of the plant.
+    x : array (n,)
+        Where it starts.
+    estimates : array (steps, r)
+        w at every step.
+    K, Pi, Gamma : array
+        Gain (A - B K stable) and the solution of the regulator equations.
+    equilibrium : (x*, u*)
+        Where the plant was linearised.
+
+    Returns
+    -------
+    array (steps, n), array (steps, p)
+        Ends early where a state is beyond 1e4, or no number.
+    """
+    states, inputs = [], []
+    x_o, u_o = equilibrium
+    for w in estimates:
+        if not np.all(np.abs(x) <= 1e4):
+            break
+        u = u_o + Gamma @ w - K @ (x - x_o - Pi @ w)
+        states.append(x)
+        inputs.append(u)
+        x = f(x, u)
+    return np.array(states), np.array(inputs)
+
+
+@dataclass(frozen=True)
+class HighGainOracle:
+    """The high-gain observer as an exosystem, entry by entry; see `plantc.symbolic.signal_generators`.
+
+    Attributes
+    ----------
+    channels : tuple of (signal, S, gain)
+        Of each channel: w+ = S w + gain psi; without a reading it coasts, as if that were what is expected.
+    memory, params, inputs : tuple of Range
+    """
+
+    channels: tuple[tuple[str, Array, Array], ...]
+    memory: tuple[Range, ...]
+    params: tuple[Range, ...]
+    inputs: tuple[Range, ...]
+
+    def call(
+        self, entry: str, memory: Any, inputs: Any, params: Any, precision: Any
+    ) -> tuple[int, dict[str, Any], dict[str, Any]]:
+        """Run an entry; see `plantc.symbolic.block.Oracle`."""
+        p = {name: np.ravel(np.asarray(value, precision)) for name, value in params.items()}
+        if entry == "init":
+            sound = all(item.holds(p, precision) for item in self.params)
+            return (0, {item.name: p[f"{item.name}_0"] for item in self.memory}, {}) if sound else (BAD_PARAM, {}, {})
+        after, outputs = {}, {}
+        ranges = {item.name: item for item in self.inputs}
+        for signal, S, _ in self.channels:
+            w = np.ravel(np.asarray(memory[f"observer_{signal}"], precision))
+            gain = p[f"gain_{signal}"]
+            expected = w[0]
+            if bool(np.ravel(inputs[f"has_{signal}"])[0]):
+                if not ranges[signal].holds(inputs, precision):
+                    return BAD_INPUT, {}, {}
+                expected = np.ravel(np.asarray(inputs[signal], precision))[0]
+            coasting = S.astype(precision) @ w
+            after[f"observer_{signal}"] = coasting + gain * (expected - w[0])
+            outputs[f"w_{signal}"] = w
+        if not all(item.holds(after, precision) for item in self.memory):
+            return OVERFLOW, {}, {}
+        return 0, after, outputs
