@@ -555,7 +555,11 @@ def audit_text(found: AuditResult) -> list[str]:
     return lines
 
 
-@main.command(name="study")
+@main.command(
+    name="study",
+    help="Do a published result again: figures, tables and one page into OUT/NAME/. "
+    f"NAME: {', '.join(studies.STUDIES)}.",
+)
 @click.argument("name")
 @click.option("--runs", type=click.IntRange(1, 100_000), default=20, show_default=True, help="Runs of each case.")
 @click.option(
@@ -570,24 +574,24 @@ def audit_text(found: AuditResult) -> list[str]:
 def study_command(
     name: str, runs: int, seed: int, out: Path, on: str | None, force: bool, as_json: bool, debug: bool
 ) -> None:
-    """Do a published result again: figures, tables and one page into OUT/NAME/. NAME: meda2018."""
+    """Do a published result again."""
     session = Session(as_json, debug)
 
     def body() -> NoReturn:
-        from .simulation import check_study_folder, write_study
+        from .simulation import ClusterError, check_study_folder, write_study
 
         made = studies.find(name)
         check_study_folder(name, out, force=force)
         with session.progress() as display:
             task = display.add_task(name, total=None)
-            found = made(
-                runs,
-                seed,
-                on=on,
-                progress=lambda what, done, total: display.update(
-                    task, description=f"{name}: {what}", completed=done, total=total
-                ),
-            )
+
+            def report(what: str, done: int, total: int) -> None:
+                display.update(task, description=f"{name}: {what}", completed=done, total=total)
+
+            try:
+                found = made(runs, seed, on=on, progress=report)
+            except ClusterError as error:
+                raise UsageError(str(error)) from None
         files = write_study(found, out, force=force)
         for item in found.comparisons:
             session.say(f"  {item.verdict}: {item.published}: {item.ours}")

@@ -5,7 +5,7 @@ import sys
 import types
 
 import pytest
-from plantc.simulation import Comparison, StudyResult, StudyTable
+from plantc.simulation import ClusterError, Comparison, StudyResult, StudyTable
 
 from plantc import ModelError, studies
 
@@ -23,6 +23,8 @@ def asked(monkeypatch):
             raise ModelError("thirteen: give another seed")
         if seed == 14:
             raise KeyboardInterrupt
+        if seed == 15:
+            raise ClusterError("nobody answers at dask://there:1; start a scheduler")
         made = StudyResult("sample", "Sample", "A paper", "0" * 16, "It holds.", {"Runs": runs})
         made.comparisons = [Comparison("Table 1: 2", "3", "does not reproduce", "rounding")]
         made.tables = [StudyTable("main", "Main", ("a",), ((float("nan"),),))]
@@ -64,6 +66,7 @@ def test_json_is_alone_on_standard_output(asked, plantc, tmp_path):
         (["study", "sample", "--seed", "-1"], "Invalid value for '--seed'"),
         (["study", "sample", "--seed", "13"], "thirteen: give another seed"),
         (["study", "sample", "--seed", "14"], "interrupted"),
+        (["study", "sample", "--seed", "15"], "error: nobody answers at dask://there:1; start a scheduler"),
         (["study"], "Missing argument 'NAME'"),
     ],
 )
