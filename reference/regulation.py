@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from .controllers import BAD_INPUT, BAD_PARAM, OVERFLOW, Array, Range
+from .controllers import BAD_INPUT, BAD_PARAM, OVERFLOW, Array, Fields, Range, StateFeedback, held
 
 
 def kalman_exosystem(
@@ -156,3 +156,56 @@ class HighGainOracle:
         if not all(item.holds(after, precision) for item in self.memory):
             return OVERFLOW, {}, {}
         return 0, after, outputs
+
+
+@dataclass(frozen=True)
+class RegulatorFeedback:
+    """u = u* + Gamma w - K (x - x* - Pi w), Pi and Gamma given by their elements that are not zero.
+
+    Attributes
+    ----------
+    states : tuple of (name, kind)
+        As in `StateFeedback`.
+    inputs : tuple of (name, size, low, high)
+        What comes out.
+    generated : tuple of str
+        Inputs that w consists of.
+    state_places, input_places : tuple of (row, column)
+        Of Pi and Gamma.
+    saturate : bool
+        Whether u is held within its range.
+    """
+
+    states: tuple[tuple[str, str], ...]
+    inputs: tuple[tuple[str, int, Array, Array], ...]
+    generated: tuple[str, ...]
+    state_places: tuple[tuple[int, int], ...]
+    input_places: tuple[tuple[int, int], ...]
+    saturate: bool
+
+    def __call__(self, memory: Fields, inputs: Fields, params: Fields) -> tuple[bool, Fields, Fields]:
+        """Evaluate it; see `plantc.reference.controllers.Formula`."""
+        w = np.concatenate([inputs[name] for name in self.generated])
+        parts = [StateFeedback._deviation(kind, inputs[name], params[name]) for name, kind in self.states]
+        deviation = np.concatenate(parts)
+        Pi = self._matrix(params.get("state_map"), self.state_places, (len(deviation), len(w)), w.dtype)
+        rows = params["gain"].reshape(-1, len(deviation))
+        Gamma = self._matrix(params.get("input_map"), self.input_places, (len(rows), len(w)), w.dtype)
+        change = Gamma @ w - rows @ (deviation - Pi @ w)
+        commands: Fields = {}
+        any_held, start = False, 0
+        for name, size, low, high in self.inputs:
+            own = params[name] + change[start : start + size]
+            start += size
+            if self.saturate:
+                was_held, own = held(own, low.astype(own.dtype), high.astype(own.dtype))
+                any_held = any_held or was_held
+            commands[name] = own
+        return any_held, {}, commands
+
+    @staticmethod
+    def _matrix(values: Any, places: tuple[tuple[int, int], ...], shape: tuple[int, int], kind: Any) -> Array:
+        matrix = np.zeros(shape, dtype=kind)
+        for (i, j), value in zip(places, values if values is not None else (), strict=True):
+            matrix[i, j] = value
+        return matrix

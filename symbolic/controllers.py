@@ -175,6 +175,19 @@ def _declare_feedback(block: Block, plant: Plant, where: OperatingPoint, K: Arra
 def _feedback_law(block: Block, plant: Plant, taken: dict[str, Symbol]) -> tuple[dict[str, ca.SX], list[Signal]]:
     """Return the commands as expressions, and the signals of the plant's inputs."""
     wanted = {symbol.signal.name: symbol for symbol in block.param_symbols()}
+    deviation = deviation_from(plant, taken, wanted)
+    K = ca.reshape(ca.SX(wanted["gain"]), plant.error_size, plant.u.numel()).T
+    command, start = K @ deviation, 0
+    answer = {}
+    for symbol in plant.inputs:
+        signal = symbol.signal
+        answer[signal.name] = ca.SX(wanted[signal.name]) - command[start : start + signal.size]
+        start += signal.size
+    return answer, [symbol.signal for symbol in plant.inputs]
+
+
+def deviation_from(plant: Plant, taken: Mapping[str, Symbol], wanted: Mapping[str, Symbol]) -> ca.SX:
+    """Return the deviation of a state from a set point: angles wrapped, an attitude's the shorter way round."""
     pieces = []
     for state in plant.states:
         value, aim = ca.SX(taken[state.signal.name]), ca.SX(wanted[state.signal.name])
@@ -185,15 +198,7 @@ def _feedback_law(block: Block, plant: Plant, taken: dict[str, Symbol]) -> tuple
             pieces.append(wrap(value - aim))
         else:
             pieces.append(value - aim)
-    deviation = ca.vertcat(*pieces)
-    K = ca.reshape(ca.SX(wanted["gain"]), plant.error_size, plant.u.numel()).T
-    command, start = K @ deviation, 0
-    answer = {}
-    for symbol in plant.inputs:
-        signal = symbol.signal
-        answer[signal.name] = ca.SX(wanted[signal.name]) - command[start : start + signal.size]
-        start += signal.size
-    return answer, [symbol.signal for symbol in plant.inputs]
+    return ca.vertcat(*pieces)
 
 
 def _around(plant: Plant, where: OperatingPoint, K: Array, saturate: bool) -> Calls:

@@ -1,0 +1,204 @@
+"""The output regulator as one Block: specs/output_regulation.md, section 11, and what it refuses."""
+
+import numpy as np
+import pytest
+from plantc.reference import regulation as oracle
+from plantc.symbolic.exosystems import compose, polynomial
+from plantc.symbolic.output_regulator import output_regulator, regulator_feedback
+from plantc.symbolic.regulator_equations import RegulatorError, francis
+from plantc.symbolic.signal_generators import high_gain_exosystem, kalman_exosystem
+
+from plantc import (
+    InterpretView,
+    ModelError,
+    NativeView,
+    Plant,
+    ReferenceView,
+    cross_check,
+    kalman_filter,
+    linearise,
+    lqr,
+)
+
+T = 0.02
+
+
+def small():
+    """The plant of section 11: the disturbance enters by a path that the input does not reach, too."""
+    plant = Plant("spring")
+    position, speed = plant.state("position", unit="m", range=(-1e3, 1e3)), plant.state("speed", range=(-1e3, 1e3))
+    force, wind = plant.input("force", unit="N", range=(-1e4, 1e4)), plant.input("wind", range=(-1e3, 1e3))
+    plant.dynamics({position: speed + 0.5 * wind, speed: -position - 0.4 * speed + force + wind})
+    plant.sensor("encoder", position, unit="m", variance=1e-8)
+    return plant.discretise("euler", dt=T)
+
+
+@pytest.fixture(scope="module")
+def parts():
+    plant = small()
+    at = linearise(plant)
+    tracks = compose([polynomial("position", 2, unit="m"), polynomial("wind", 2)]).sampled(T, "euler")
+    solution = francis(at, tracks)
+    gain = lqr((solution.model.A, solution.model.B, T), Q=[100, 10], R=1)
+    generator = kalman_exosystem(tracks, process_variance=1e-4, measurement_variance=0.01)
+    return plant, gain, solution, generator
+
+
+def signals(k):
+    t = T * k
+    return 1 + 0.2 * t - 0.01 * t * t, 0.5 + 0.1 * t
+
+
+def error_of(block, solution, steps=3001, **params):
+    """Errors of the position in a closed loop with the linear plant, from rest."""
+    view = NativeView(block)
+    given = view.params(**params)
+    memory, x, found = view.init(given), np.zeros(2), []
+    A, B, E = solution.model.A, solution.model.B, np.array([0.5, 1.0]) * T
+    for k in range(steps):
+        reference, wind = signals(k)
+        inputs = {
+            "generator_position": reference, "generator_has_position": True, "generator_wind": wind,
+            "generator_has_wind": True, "feedback_position": x[0], "feedback_speed": x[1],
+        }  # fmt: skip
+        answer = view.call("step", memory, view.inputs("step", inputs), given)
+        assert answer.status == 0
+        memory, u = answer.memory, float(answer.outputs["feedback"]["force"])
+        found.append(x[0] - reference)
+        x = A @ x + B[:, 0] * u + E * wind
+    return np.abs(found)
+
+
+def test_references_are_followed_and_disturbances_undone(parts):
+    plant, gain, solution, generator = parts
+    np.testing.assert_allclose(gain.gain, [[8.5648021, 4.8456776]], atol=1e-7)
+    assert np.max(np.abs(gain.eigenvalues)) == pytest.approx(0.94810989, abs=1e-8)
+    block = output_regulator(plant, {}, gain, solution, generator)
+    # maps of 9 digits, then all digits that there are
+    assert np.max(error_of(block, solution)[2000:]) < 2e-8
+    exact = {what: picked(solution, block, what) for what in ("state_map", "input_map")}
+    assert (
+        np.max(error_of(block, solution, **{f"feedback__{what}": item for what, item in exact.items()})[2000:]) < 1e-11
+    )
+    # the planted fault: the disturbance is read, and left out of the maps
+    blind = {}
+    for what, item in exact.items():
+        known = [j < 3 for _, j in places(block, what)]
+        blind[f"feedback__{what}"] = np.where(known, item, 0.0)
+    assert np.max(error_of(block, solution, **blind)[2000:]) == pytest.approx(2.446, rel=1e-3)
+
+
+def picked(solution, block, what):
+    return np.array([getattr(solution, what)[i, j] for i, j in places(block, what)])
+
+
+def default(block, what):
+    return next(s.default for s in block.parts["feedback"].param_signals if s.name == what)
+
+
+def places(block, what):
+    oracle_ = block.parts["feedback"].oracle.formulas["step"]
+    return oracle_.state_places if what == "state_map" else oracle_.input_places
+
+
+def test_the_law_is_that_of_the_oracle_loop(parts):
+    plant, gain, solution, _ = parts
+    law = regulator_feedback(plant, {"position": 0.3, "force": 0.3}, gain, solution)
+    view = InterpretView(law)
+    rng = np.random.default_rng(0)
+    for _ in range(5):
+        x, w = rng.normal(size=2), rng.normal(size=6)
+        inputs = {"position": x[0], "speed": x[1], "w_position": w[:3], "w_wind": w[3:]}
+        answer = view.call("step", view.init(), view.inputs("step", inputs), view.params())
+        _, u = oracle.closed_loop(
+            lambda x, u: x,
+            x,
+            w[None, :],
+            gain.gain,
+            solution.state_map,
+            solution.input_map,
+            (np.array([0.3, 0]), np.array([0.3])),
+        )
+        assert float(answer.outputs["force"]) == pytest.approx(u[0, 0], rel=1e-7)
+
+
+def test_the_maps_are_kept_by_their_elements_that_are_not_zero(parts):
+    plant, gain, solution, _ = parts
+    law = regulator_feedback(plant, {}, gain, solution)
+    sizes = {signal.name: signal.size for signal in law.param_signals}
+    assert sizes["state_map"] == np.count_nonzero(solution.rounded()["state_map"]) == 3
+    assert sizes["input_map"] == np.count_nonzero(solution.rounded()["input_map"]) == 5
+
+
+def test_designed_numbers_are_recorded(parts):
+    plant, gain, solution, generator = parts
+    block = output_regulator(plant, {}, gain, solution, generator)
+    assert set(block.design.values) == {"feedback.state_map", "feedback.input_map", "feedback.gain"}
+    good = block.design.properties(block.design.values)
+    assert all(value <= limit for value, limit in good.values()), good
+    wrong = {**block.design.values, "feedback.input_map": 1.001 * block.design.values["feedback.input_map"]}
+    assert any(value > limit for value, limit in block.design.properties(wrong).values())
+    again = block.design.rebuild(wrong)
+    assert default(again, "input_map") == pytest.approx(1.001 * np.array(default(block, "input_map")))
+    with pytest.raises(ModelError, match="input_map of design.json has other zeros than the model"):
+        block.design.rebuild({**wrong, "feedback.input_map": np.ones((1, 6))})
+    with pytest.raises(ModelError, match=r"state_map of design.json has shape \(1, 6\); give 2 x 6"):
+        block.design.rebuild({**wrong, "feedback.state_map": np.ones((1, 6))})
+
+
+def test_what_is_refused(parts):
+    plant, gain, solution, generator = parts
+    with pytest.raises(RegulatorError, match=r"A - B K has spectral radius 1\.\d+, not below 1\); -K would"):
+        output_regulator(plant, {}, -gain.gain, solution, generator)
+    output_regulator(plant, {}, -gain.gain, solution, generator, accept_unstable=True)
+    with pytest.raises(ModelError, match=r"the gain has shape \(1, 3\), Pi \(2, 6\) and Gamma \(1, 6\); give K 1 x 2"):
+        output_regulator(plant, {}, np.ones((1, 3)), solution, generator)
+
+
+def with_estimator(parts):
+    plant, gain, solution, generator = parts
+    variances = {"position": 1e-2, "speed": 1e-2}
+    noisy = small().step_noise({"speed": 1e-8})
+    estimator = kalman_filter(noisy, initial_variance=variances, name="spring_kf")
+    return output_regulator(plant, {}, gain, solution, generator, estimator=estimator)
+
+
+def test_with_an_estimator_in_front(parts):
+    block = with_estimator(parts)
+    names = {signal.name for signal in block.entries["step"].inputs}
+    assert {"estimator_encoder", "estimator_has_encoder", "estimator_wind", "generator_position"} <= names
+    assert not any(name.startswith("feedback_") for name in names)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("what", ["bare", "estimator", "high gain"])
+def test_the_c_of_the_regulator(parts, what):
+    plant, gain, solution, generator = parts
+    if what == "estimator":
+        block = with_estimator(parts)
+    elif what == "bare":
+        block = output_regulator(plant, {}, gain, solution, generator, saturate=True)
+    else:
+        tracks = compose([polynomial("position", 1, unit="m"), polynomial("wind", 1)]).sampled(T, "euler")
+        observer = high_gain_exosystem(tracks, coefficients=(2, 1), epsilon=0.1)
+        block = output_regulator(plant, {}, gain, francis(linearise(plant), tracks), observer)
+    assert cross_check(block, "double", steps=60).passed
+
+
+def test_the_oracle_of_the_whole(parts):
+    plant, gain, solution, generator = parts
+    block = output_regulator(plant, {}, gain, solution, generator)
+    first, second = InterpretView(block), ReferenceView(block)
+    memory, params = first.init(), first.params()
+    for k in range(20):
+        reference, wind = signals(k)
+        inputs = first.inputs("step", {
+            "generator_position": reference, "generator_has_position": k % 4 > 0, "generator_wind": wind,
+            "generator_has_wind": True, "feedback_position": 0.1 * k, "feedback_speed": 0.3,
+        })  # fmt: skip
+        one, two = (view.call("step", memory, inputs, params) for view in (first, second))
+        assert one.status == two.status == 0
+        assert float(one.outputs["feedback"]["force"]) == pytest.approx(
+            float(two.outputs["feedback"]["force"]), rel=1e-9
+        )
+        memory = one.memory
