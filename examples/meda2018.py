@@ -31,6 +31,7 @@ from plantc.simulation import (
     StudyResult,
     StudyTable,
     closed_loop,
+    connected,
     judge,
     monte_carlo,
     replay,
@@ -817,16 +818,17 @@ def study(
     clock = {"start": time.perf_counter()}
     wanted = cases()
     total = len(wanted) + len(DEVIATIONS)
-    tell("compiling", 0, total)
-    models = hashlib.sha256(" ".join(loop(which).text.digest for which in ESTIMATORS).encode()).hexdigest()[:16]
-    seconds = times()
-    clock["compiling"] = time.perf_counter()
-    rows: dict[Case, Row] = {}
-    for done, case in enumerate(wanted):
-        tell(f"protocol {case.protocol}, r = {case.r:g}, {case.estimator}", done, total)
-        rows[case] = Row.of_result(evaluate(case, runs, seed, on=on, jobs=jobs))
-    tell("without noise", len(wanted), total)
-    free = {deviation: without_noise(deviation, runs, seed, on=on, jobs=jobs) for deviation in DEVIATIONS}
+    with connected(on):
+        tell("compiling", 0, total)
+        models = hashlib.sha256(" ".join(loop(which).text.digest for which in ESTIMATORS).encode()).hexdigest()[:16]
+        seconds = times()
+        clock["compiling"] = time.perf_counter()
+        rows: dict[Case, Row] = {}
+        for done, case in enumerate(wanted):
+            tell(f"protocol {case.protocol}, r = {case.r:g}, {case.estimator}", done, total)
+            rows[case] = Row.of_result(evaluate(case, runs, seed, on=on, jobs=jobs))
+        tell("without noise", len(wanted), total)
+        free = {deviation: without_noise(deviation, runs, seed, on=on, jobs=jobs) for deviation in DEVIATIONS}
     clock["runs"] = time.perf_counter()
     tell("figures", total, total)
     facts = gain_facts()

@@ -1,7 +1,7 @@
 """Closed loops, noise, Monte-Carlo and metrics, over any View."""
 
 from .closed_loop import ClosedLoop, closed_loop, run_batch, simulate
-from .cluster import ClusterError
+from .cluster import ClusterError, connected
 from .metrics import History, Judgement, judge, metrics_of
 from .monte_carlo import Interrupted, Start, monte_carlo, replay
 from .noise import Channel, channels, draw, stream
@@ -26,6 +26,7 @@ __all__ = [
     "channels",
     "check_study_folder",
     "closed_loop",
+    "connected",
     "draw",
     "judge",
     "metrics_of",

@@ -9,7 +9,8 @@ import hashlib
 import pickle
 import re
 import zlib
-from collections.abc import Generator, Mapping
+from collections.abc import Generator, Iterator, Mapping
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from .metrics import Judgement
@@ -44,6 +45,39 @@ def on_cluster(address: str, work: Work, starts: Mapping[int, Any]) -> Done:
     ClusterError
         If the address is none, Dask is not installed, the scheduler does not answer, or workers keep dying.
     """
+    with connected(address) as client:
+        yield from _results(client, work, starts)
+
+
+_held: dict[str, Any] = {}
+
+
+@contextmanager
+def connected(address: str | None) -> Iterator[Any]:
+    """Hold a connection to a cluster; what runs there meanwhile uses it, in place of one of its own.
+
+    Parameters
+    ----------
+    address : str or None
+        ``dask://HOST:PORT``; None is this process, which needs no connection.
+
+    Raises
+    ------
+    ClusterError
+        As by `on_cluster`.
+    """
+    if address is None or address in _held:
+        yield _held.get(address or "")
+        return
+    with _client(address) as client:
+        _held[address] = client
+        try:
+            yield client
+        finally:
+            del _held[address]
+
+
+def _client(address: str) -> Any:
     found = re.fullmatch(r"dask://([^/:\s]+|\[[0-9a-fA-F:]+\]):(\d+)/?", address)
     if found is None:
         raise ClusterError(f"{address!r} is no address of a cluster; give dask://HOST:PORT, that of the Dask scheduler")
@@ -54,16 +88,16 @@ def on_cluster(address: str, work: Work, starts: Mapping[int, Any]) -> Done:
             "dask is not installed here; pip install 'plantc[cluster]', here and on every worker"
         ) from None
     try:
-        client = distributed.Client(f"tcp://{found[1]}:{found[2]}", timeout=PATIENCE, set_as_default=False)
+        return distributed.Client(f"tcp://{found[1]}:{found[2]}", timeout=PATIENCE, set_as_default=False)
     except (OSError, TimeoutError) as error:
         raise ClusterError(
             f"no Dask scheduler answers at {address} ({type(error).__name__}); start one with 'dask scheduler'"
         ) from None
-    with client:
-        yield from _results(client, distributed, work, starts)
 
 
-def _results(client: Any, distributed: Any, work: Work, starts: Mapping[int, Any]) -> Done:
+def _results(client: Any, work: Work, starts: Mapping[int, Any]) -> Done:
+    import distributed
+
     packed = zlib.compress(pickle.dumps(work))
     workers = max(1, len(client.nthreads()))
     size = max(1, min(10, len(starts) // (8 * workers)))

@@ -100,3 +100,30 @@ def test_an_entry_that_is_not_there_is_named(shape_named):
     for entry in ("init", "walk"):
         with pytest.raises(ValueError, match="no entry that can be run in a batch; it has step"):
             batch_text(shape_named("low_pass"), entry)
+
+
+def test_runs_in_one_room_are_as_runs_in_new_arrays(shape_named):
+    batch = Batch(batch_text(shape_named("low_pass")))
+    room = batch.room(10)
+    for seed in (1, 2):
+        inputs = random_inputs(shape_named("low_pass"), batch, 10, seed)
+        apart, inside = batch.run(inputs), batch.run(inputs, room=room)
+        assert bits(apart.memory) == bits(inside.memory)
+        assert np.shares_memory(inside.memory, room.memory)
+        assert not np.shares_memory(apart.memory, room.memory)
+    with pytest.raises(ValueError, match="low_pass: the room is not for these steps of this batch"):
+        batch.run(batch.inputs(11), room=room)
+    other = Batch(batch_text(shape_named("two_filters")))
+    with pytest.raises(ValueError, match="two_filters: the room is not for these steps of this batch"):
+        other.run(other.inputs(10), room=room)
+
+
+def test_a_call_is_timed_as_often_as_asked_and_only_where_it_is_accepted(shape_named):
+    batch = Batch(batch_text(shape_named("low_pass")))
+    inputs = random_inputs(shape_named("low_pass"), batch, 10)
+    times = batch.seconds(inputs, repeats=3)
+    assert len(times) == 3
+    assert min(times) > 0
+    inputs["raw"][4] = np.nan
+    with pytest.raises(ValueError, match="low_pass: step 5 was refused"):
+        batch.seconds(inputs)

@@ -121,6 +121,19 @@ def test_a_refused_call_ends_a_run_in_both_ways_alike(loop, tuned):
     assert whole.truth.tobytes() == parts.truth.tobytes()
 
 
+def test_a_history_stays_what_it_is_when_another_run_follows(loop, tuned):
+    made = loop("kf")
+    batch, params = Batch(made.text), tuned("kf", R)
+    arguments = {"params": params, "held": made.held}
+    first = run_batch(batch, made.layout, pseudo_noise(), STEPS, **arguments)
+    before = {name: getattr(first, name).copy() for name in ("truth", "estimate", "spread", "commands", "statuses")}
+    nis = first.nis["pose"].copy()
+    second = run_batch(batch, made.layout, {}, STEPS, **arguments)  # no noise: nothing is left of that before
+    assert np.max(np.abs(second.truth - made.point.x)) < 1e-9
+    assert {name: getattr(first, name).tobytes() for name in before} == {k: v.tobytes() for k, v in before.items()}
+    np.testing.assert_array_equal(first.nis["pose"], nis)
+
+
 def test_a_view_of_another_block_and_a_wrong_parameter_are_refused(loop):
     made = loop("kf")
     other = NativeView(loop("ekf").controller)

@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 import pytest
-from plantc.simulation import ClusterError, Result, Start, closed_loop, monte_carlo
+from plantc.simulation import ClusterError, Result, Start, closed_loop, connected, monte_carlo
 
 from plantc import Block, Plant
 
@@ -78,11 +78,16 @@ def cluster(folder, workers=2):
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("default")
-def test_a_cluster_gives_the_same_bytes_also_when_a_worker_is_killed_half_way(tank, tmp_path, needs):
+def test_a_cluster_gives_the_same_bytes_also_when_a_worker_is_killed_half_way(tank, tmp_path, monkeypatch, needs):
     needs("python:distributed")
     monte_carlo(tank, **SETTINGS, file=tmp_path / "here")
     with cluster(tmp_path) as (address, workers):
-        monte_carlo(tank, **SETTINGS, on=address, file=tmp_path / "there")
+        with connected(address) as client, monkeypatch.context() as patch:
+            patch.setattr("distributed.Client", None)  # none but the connection that is held
+            monte_carlo(tank, **SETTINGS, on=address, file=tmp_path / "there")
+            assert client.status == "running"
+            monte_carlo(tank, **(SETTINGS | {"steps": 10}), on=address)
+        assert client.status == "closed"
         killed = []
 
         def kill_one(done, total):
@@ -104,6 +109,12 @@ def test_a_cluster_gives_the_same_bytes_also_when_a_worker_is_killed_half_way(ta
 def test_what_is_no_address_is_said(tank, address):
     with pytest.raises(ClusterError, match="is no address of a cluster; give dask://HOST:PORT"):
         monte_carlo(tank, runs=1, steps=1, on=address)
+
+
+def test_this_process_needs_no_connection(tank):
+    with connected(None) as client:
+        assert client is None
+        assert not monte_carlo(tank, runs=2, steps=3).missing
 
 
 def test_without_dask_a_sentence_says_what_to_install(tank, monkeypatch):
