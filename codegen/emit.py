@@ -175,7 +175,10 @@ class _Emitter:
 
     def _structs(self, block: Block, prefix: str) -> str:
         """Return all struct definitions, those of parts first."""
-        texts = [self._structs(part, f"{prefix}_{name}") for name, part in block.parts.items()]
+        texts = [
+            self._structs(part, f"{prefix}_{name}") if block.twin(name) == name else self._aliases(block, name, prefix)
+            for name, part in block.parts.items()
+        ]
         types = {part: f"{prefix}_{part}" for part in block.parts}
         params = block.param_group().members
         if params:
@@ -206,6 +209,19 @@ class _Emitter:
                     )
                 )
         return "\n".join(texts)
+
+    def _aliases(self, block: Block, part: str, prefix: str) -> str:
+        """Return names for the structs of a part that is the same Block as one before it."""
+        own, first, inner = f"{prefix}_{part}", f"{prefix}_{block.twin(part)}", block.parts[part]
+        ends = ["params_t"] if inner.param_group().members else []
+        ends.append("state_t")
+        for entry in inner.entries.values():
+            ends += [f"{entry.name}_in_t"] if entry.inputs else []
+            ends += [f"{entry.name}_out_t"] if entry.outputs else []
+        lines = comment_lines(
+            f"{part} is the same block as {block.twin(part)}, with a memory and parameters of its own.", ""
+        )
+        return "\n".join([*lines, *[f"typedef {first}_{end} {own}_{end};" for end in ends], ""])
 
     def _out_types(self, block: Block, entry: Entry, prefix: str) -> dict[str, str]:
         types = {}
@@ -270,7 +286,12 @@ class _Emitter:
     def _cores(self, block: Block, prefix: str) -> list[str]:
         lines: list[str] = []
         for name, part in block.parts.items():
-            lines += self._cores(part, f"{prefix}_{name}")
+            if block.twin(name) == name:
+                lines += self._cores(part, f"{prefix}_{name}")
+                continue
+            path, first = (f"{prefix}_{item}".removeprefix(f"{self.name}_") for item in (name, block.twin(name)))
+            for key in [key for key in self.operations if key.startswith(f"{first}.")]:
+                self.operations[path + key.removeprefix(first)] = self.operations[key]
         hold = next(
             (item for entry in block.entries.values() for item in walk(entry.body) if isinstance(item, HoldVariances)),
             None,

@@ -174,7 +174,10 @@ class _Prover:
         self.name, self.prefix = text.name, "_".join((text.name, *path))
         self.status = f"{text.name}_status_t"
         self.memory, self.params = block.memory_group().members, block.param_group().members
-        self.parts = {name: _Prover(part, text, (*path, name)) for name, part in block.parts.items()}
+        first = {
+            name: _Prover(part, text, (*path, name)) for name, part in block.parts.items() if block.twin(name) == name
+        }
+        self.parts = {name: first[block.twin(name)] for name in block.parts}
         self.hold = next(
             (item for entry in block.entries.values() for item in walk(entry.body) if isinstance(item, HoldVariances)),
             None,
@@ -188,7 +191,7 @@ class _Prover:
 
     def tasks(self) -> list[Task]:
         """Return every function that must be proved: those of parts, what judges, cores, then what callers see."""
-        found = [task for part in self.parts.values() for task in part.tasks()]
+        found = [task for name, part in self.parts.items() if self.block.twin(name) == name for task in part.tasks()]
         found += self._judgements() if self.hold is not None else []
         for entry in self.block.entries.values():
             if entry.name in self.called or (self.path and self._has(f"{entry.name}_core")):

@@ -827,7 +827,7 @@ class CoreWriter:
     def call_text(self, call: Call, before: str, after: str) -> str:
         """Return the C of a call to another core."""
         block = self.block.parts[call.part] if call.part else self.block
-        prefix = f"{self.prefix}_{call.part}" if call.part else self.prefix
+        prefix = f"{self.prefix}_{self.block.twin(call.part)}" if call.part else self.prefix
         entry = block.entries[call.entry]
         given = dict(call.arguments)
         parts = []

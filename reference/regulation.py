@@ -6,7 +6,7 @@ J. A. Meda-Campana et al., "The output regulation and the Kalman filter as the s
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -174,6 +174,8 @@ class RegulatorFeedback:
         Of Pi and Gamma.
     saturate : bool
         Whether u is held within its range.
+    fixed : dict
+        Of "gain", "state_map" and "input_map" those that are no parameters.
     """
 
     states: tuple[tuple[str, str], ...]
@@ -182,10 +184,12 @@ class RegulatorFeedback:
     state_places: tuple[tuple[int, int], ...]
     input_places: tuple[tuple[int, int], ...]
     saturate: bool
+    fixed: Fields = field(default_factory=dict)
 
     def __call__(self, memory: Fields, inputs: Fields, params: Fields) -> tuple[bool, Fields, Fields]:
         """Evaluate it; see `plantc.reference.controllers.Formula`."""
         w = np.concatenate([inputs[name] for name in self.generated])
+        params = {**params, **{name: np.asarray(value, dtype=w.dtype) for name, value in self.fixed.items()}}
         parts = [StateFeedback._deviation(kind, inputs[name], params[name]) for name, kind in self.states]
         deviation = np.concatenate(parts)
         Pi = self._matrix(params.get("state_map"), self.state_places, (len(deviation), len(w)), w.dtype)

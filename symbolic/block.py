@@ -492,6 +492,10 @@ class Block:
         used = [group for group in groups if group.members]
         return Signal("params", kind=Kind.GROUP, members=(*self.param_signals, *used))
 
+    def twin(self, part: str) -> str:
+        """Return the first part that is the very same Block: parts that are share their C."""
+        return next(name for name, block in self.parts.items() if block is self.parts[part])
+
     def judge_inputs(self, entry: Entry) -> Condition:
         """Return the condition that the inputs of an entry are within their ranges.
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import copy
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass
 from typing import Any
 
 import casadi as ca
@@ -20,6 +19,7 @@ from .composition import Delay, connect, wires
 from .controllers import LARGEST_GAIN, deviation_from
 from .design import Gain
 from .errors import ModelError
+from .origins import place_of_call
 from .plant import Plant, Symbol
 from .regulator_equations import RegulatorSolution, closed_loop, linear_model
 from .signal_generators import signal_groups
@@ -28,16 +28,19 @@ from .signals import Signal
 Array = NDArray[Any]
 Places = tuple[tuple[int, int], ...]
 
+MAPS = ("state_map", "input_map")
+
 
 def output_regulator(
     plant: Plant,
     point: Mapping[Any, Any],
     gain: Gain | Any,
     solution: RegulatorSolution,
-    generator: Block,
+    generator: Block | Mapping[str, Block],
     *,
     estimator: Block | None = None,
     saturate: bool = False,
+    tunable: bool = True,
     accept_unstable: bool = False,
     name: str = "",
     doc: str = "",
@@ -54,12 +57,15 @@ def output_regulator(
         K; A - B K has to be stable.
     solution : RegulatorSolution
         Of `francis`: Pi and Gamma. Measured disturbances are in it; they are inputs of the plant that do not act.
-    generator : Block
-        Of `kalman_exosystem` or `high_gain_exosystem`: the observer of w, one vector ``w_<signal>`` for each signal.
+    generator : Block, or dict
+        Of `kalman_exosystem` or `high_gain_exosystem`: the observer of w, one vector ``w_<signal>`` for each signal. Or signal
+        -> an observer of that signal alone; signals of one kind may have the very same Block, which then is in the C once.
     estimator : Block, optional
         An estimator of the plant's own state, such as `extended_kalman_filter` of it. Without one the states are inputs.
     saturate : bool
         Whether u is held within the ranges of the plant's inputs (status CLAMPED); else such a call is refused.
+    tunable : bool
+        Whether K, Pi and Gamma are run-time parameters; else they are folded into the C, which is smaller.
     accept_unstable : bool
         Whether a gain that does not stabilise is accepted.
     name, doc : str
@@ -68,8 +74,9 @@ def output_regulator(
     Returns
     -------
     Block
-        Parts "generator", "estimator" (if given) and "feedback". Pi, Gamma and K go through `design.json` (those of a `Gain`)
-        and are run-time parameters, the maps by their elements that are not zero.
+        Parts "generator" (or ``generator_<signal>``), "estimator" (if given) and "feedback". Pi, Gamma and K go through
+        `design.json` (K if it is that of a `Gain`); they are run-time parameters, the maps by their elements that are not zero,
+        unless `tunable` is false.
 
     Raises
     ------
@@ -80,13 +87,11 @@ def output_regulator(
     """
     name = name or f"{plant.name}_regulator"
     feedback = regulator_feedback(
-        plant, point, gain, solution, saturate=saturate, accept_unstable=accept_unstable, name=f"{plant.name}_feedback"
-    )
-    if generator.sample_time is not None:
-        feedback.sample_time = generator.sample_time
-    parts, joined = {"generator": generator}, dict[str, str | Delay]()
-    for signal, _ in signal_groups(solution.exosystem):
-        joined[f"feedback.w_{signal}"] = f"generator.w_{signal}"
+        plant, point, gain, solution, saturate=saturate, tunable=tunable, accept_unstable=accept_unstable,
+        name=f"{plant.name}_feedback",
+    )  # fmt: skip
+    parts, joined = _generators(name, generator, solution)
+    feedback.sample_time = next((part.sample_time for part in parts.values() if part.sample_time), feedback.sample_time)
     if estimator is not None:
         where = OperatingPoint.at(plant, point)
         parts["estimator"] = estimator
@@ -98,6 +103,31 @@ def output_regulator(
     return connect(parts, joined, name, doc=text)
 
 
+def _generators(
+    name: str, generator: Block | Mapping[str, Block], solution: RegulatorSolution
+) -> tuple[dict[str, Block], dict[str, str | Delay]]:
+    """Return the parts that observe w, and the wires from them to the law."""
+    signals = [signal for signal, _ in signal_groups(solution.exosystem)]
+    if isinstance(generator, Block):
+        return {"generator": generator}, {f"feedback.w_{signal}": f"generator.w_{signal}" for signal in signals}
+    if sorted(generator) != sorted(signals):
+        raise ModelError(
+            f"{name}: generators are given for {', '.join(generator) or 'nothing'}; give one for each of {', '.join(signals)}"
+        )
+    joined: dict[str, str | Delay] = {}
+    for signal in signals:
+        block = generator[signal]
+        found = [
+            item.name for item in (*block.memory_signals, *block.entries["step"].outputs) if item.name.startswith("w_")
+        ]
+        if len(found) != 1:
+            raise ModelError(
+                f"{name}: the generator of {signal!r} observes {', '.join(found) or 'nothing'}; give it one signal"
+            )
+        joined[f"feedback.w_{signal}"] = f"generator_{signal}.{found[0]}"
+    return {f"generator_{signal}": generator[signal] for signal in signals}, joined
+
+
 def regulator_feedback(
     plant: Plant,
     point: Mapping[Any, Any],
@@ -105,6 +135,7 @@ def regulator_feedback(
     solution: RegulatorSolution,
     *,
     saturate: bool = False,
+    tunable: bool = True,
     accept_unstable: bool = False,
     name: str = "",
     doc: str = "",
@@ -113,7 +144,7 @@ def regulator_feedback(
 
     Parameters
     ----------
-    plant, point, gain, solution, saturate, accept_unstable, name, doc
+    plant, point, gain, solution, saturate, tunable, accept_unstable, name, doc
         As for `output_regulator`.
 
     Returns
@@ -134,35 +165,170 @@ def regulator_feedback(
     if isinstance(gain, Gain) and gain.dt != model.dt:  # a law for samples, maps of the continuous plant
         model = linear_model(gain.A, gain.B, np.zeros((0, len(gain.A))), dt=gain.dt, name=plant.name)
     closed_loop(model, K, accept_unstable=accept_unstable)
-    block = Block(name, doc=doc or "u = u* + Gamma w - K (x - x* - Pi w)")
-    maps = solution.rounded()
-    taken, generated, places = _declare(block, plant, where, K, solution, maps, acting)
-    outputs = _law(block, plant, taken, generated, places, acting)
-    block.entry(
-        "step",
-        inputs=[*taken.values(), *generated],
-        outputs=outputs,
-        output_units={item.name: item.unit for item in acting},
-        output_ranges={item.name: (item.low, item.high) for item in acting},
-        output_docs={
-            item.name: f"{item.doc or 'command'}; keeps its last value when a call is refused" for item in acting
-        },
-        limits={item.name: (item.low, item.high) for item in acting} if saturate else {},
-        doc="The command for a state of the plant and of the exosystem.",
-    )
-    block.sample_time = plant.dt if isinstance(plant.dt, float) else solution.exosystem.dt
-    kinds = tuple(
-        (state.signal.name, "attitude" if state.attitude else "angle" if state.signal.angle else "plain")
-        for state in plant.states
-    )
-    formula = RegulatorFeedback(
-        kinds,
-        tuple((item.name, item.size, np.array(item.low), np.array(item.high)) for item in acting),
-        tuple(symbol.signal.name for symbol in generated), *places, saturate,
-    )  # fmt: skip
-    finish(block, {"step": formula}, _near(plant, where, K, solution, generated))
-    block.design = _design(block, gain, solution, places)
-    return block
+    law = _Law(plant, where, solution, saturate, tunable, name, doc or "u = u* + Gamma w - K (x - x* - Pi w)", gain)
+    return law.block({"gain": K, **solution.rounded()})
+
+
+@dataclass(frozen=True, eq=False)
+class _Law:
+    """All that a law is made of, but for its numbers."""
+
+    plant: Plant
+    where: OperatingPoint
+    solution: RegulatorSolution
+    saturate: bool
+    tunable: bool
+    name: str
+    doc: str
+    gain: Gain | Any
+
+    @property
+    def order(self) -> list[int]:
+        """Return the columns of Pi and Gamma in the order in which w comes."""
+        return [k for _, columns in signal_groups(self.solution.exosystem) for k in columns]
+
+    def places(self) -> dict[str, Places]:
+        """Return where the elements of the maps that are not zero stand."""
+        maps = self.solution.rounded()
+        return {what: tuple((int(i), int(j)) for i, j in np.argwhere(maps[what][:, self.order] != 0)) for what in MAPS}
+
+    def numbers(self, values: Mapping[str, Any]) -> dict[str, Array]:
+        """Return K by rows, and the elements of the maps."""
+        answer = {"gain": np.asarray(values["gain"], dtype=float).ravel()}
+        for what, own in self.places().items():
+            matrix = np.asarray(values[what], dtype=float)[:, self.order]
+            answer[what] = np.array([matrix[i, j] for i, j in own])
+        return answer
+
+    def block(self, values: Mapping[str, Any]) -> Block:
+        """Return the Block with these numbers."""
+        plant, acting = self.plant, _acting(self.plant, self.solution)
+        block = Block(self.name, doc=self.doc)
+        numbers, places = self.numbers(values), self.places()
+        taken, generated = self._declare(block, numbers, places, acting)
+        block.entry(
+            "step",
+            inputs=[*taken.values(), *generated],
+            outputs=self._commands(block, taken, generated, numbers, acting),
+            output_units={item.name: item.unit for item in acting},
+            output_ranges={item.name: (item.low, item.high) for item in acting},
+            output_docs={
+                item.name: f"{item.doc or 'command'}; keeps its last value when a call is refused" for item in acting
+            },
+            limits={item.name: (item.low, item.high) for item in acting} if self.saturate else {},
+            doc="The command for a state of the plant and of the exosystem.",
+        )
+        block.sample_time = plant.dt if isinstance(plant.dt, float) else self.solution.exosystem.dt
+        kinds = tuple(
+            (state.signal.name, "attitude" if state.attitude else "angle" if state.signal.angle else "plain")
+            for state in plant.states
+        )
+        formula = RegulatorFeedback(
+            kinds,
+            tuple((item.name, item.size, np.array(item.low), np.array(item.high)) for item in acting),
+            tuple(symbol.signal.name for symbol in generated),
+            places["state_map"],
+            places["input_map"],
+            self.saturate,
+            {} if self.tunable else numbers,
+        )
+        K = np.asarray(values["gain"], dtype=float)
+        finish(block, {"step": formula}, _near(plant, self.where, K, self.solution, generated))
+        block.design = self._design(values)
+        return block
+
+    def _declare(
+        self, block: Block, numbers: Mapping[str, Array], places: Mapping[str, Places], acting: list[Signal]
+    ) -> tuple[dict[str, Symbol], list[Symbol]]:
+        """Declare inputs and parameters; return states and w."""
+        taken, states = {}, [state.signal for state in self.plant.states]
+        for signal in states:
+            ends = (signal.low, signal.high)
+            taken[signal.name] = block.input(
+                signal.name, size=signal.size, unit=signal.unit, range=ends, doc=signal.doc
+            )
+        generated = [
+            block.input(f"w_{signal}", size=len(columns), doc=f"state of the generator of {signal}")
+            for signal, columns in signal_groups(self.solution.exosystem)
+        ]
+        values = {**self.where.states, **self.where.inputs}
+        for signal in [*states, *acting]:
+            word = "set point of" if signal.name in taken else "what holds the set point:"
+            ends = (signal.low, signal.high)
+            block.parameter(signal.name, values[signal.name], unit=signal.unit, range=ends, doc=f"{word} {signal.name}")
+        if self.tunable:
+            rows = ", ".join(item.name for item in acting)
+            told = {"gain": f"K by rows ({rows}), columns in the order of the states"}
+            for what, letter in (("state_map", "Pi"), ("input_map", "Gamma")):
+                listed = " ".join(f"({i} {j})" for i, j in places[what])
+                told[what] = f"{letter}, its elements {listed}; the rest is zero"
+            for what, doc in told.items():
+                if len(numbers[what]):
+                    block.parameter(what, numbers[what], range=_reach(numbers[what]), doc=doc)
+        return taken, generated
+
+    def _commands(
+        self,
+        block: Block,
+        taken: Mapping[str, Symbol],
+        generated: list[Symbol],
+        numbers: Mapping[str, Array],
+        acting: list[Signal],
+    ) -> dict[str, ca.SX]:
+        """Return the commands as expressions."""
+        wanted = {symbol.signal.name: symbol for symbol in block.param_symbols()}
+        w, n = ca.vertcat(ca.SX(0, 1), *generated), self.plant.error_size
+        size = sum(item.size for item in acting)
+        held = {
+            what: ca.SX(wanted[what]) if self.tunable and len(item) else ca.SX(ca.DM(item))
+            for what, item in numbers.items()
+        }
+        maps = {}
+        for what, rows in (("state_map", n), ("input_map", size)):
+            maps[what] = ca.SX(rows, w.numel())
+            for k, (i, j) in enumerate(self.places()[what]):
+                maps[what][i, j] = held[what][k]
+        K = ca.sparsify(ca.reshape(held["gain"], n, size).T)
+        change = maps["input_map"] @ w - K @ (deviation_from(self.plant, taken, wanted) - maps["state_map"] @ w)
+        answer, start = {}, 0
+        for signal in acting:
+            answer[signal.name] = ca.SX(wanted[signal.name]) + change[start : start + signal.size]
+            start += signal.size
+        return answer
+
+    def _design(self, values: Mapping[str, Any]) -> Design:
+        """Return the record of Pi, Gamma and (of a Gain) K."""
+        designed, solution = isinstance(self.gain, Gain), self.solution
+        names = (*MAPS, *(["gain"] if designed else []))
+        shapes = {what: np.shape(values[what]) for what in names}
+
+        def rebuild(given: dict[str, Any]) -> Block:
+            for what in names:
+                matrix = np.asarray(given[what], dtype=float)
+                if matrix.shape != shapes[what] or not np.all(np.isfinite(matrix)):
+                    raise ModelError(
+                        f"{self.name}: {what} of design.json has shape {matrix.shape}; give {shapes[what][0]} x "
+                        f"{shapes[what][1]} finite numbers, or export with --redesign"
+                    )
+            for what, own in self.places().items():
+                rest = np.array(given[what], dtype=float)[:, self.order]
+                most = max(1.0, float(np.max(np.abs(rest), initial=0.0)))
+                for i, j in own:
+                    rest[i, j] = 0.0
+                if float(np.max(np.abs(rest), initial=0.0)) > 1e-9 * most:
+                    raise ModelError(
+                        f"{self.name}: {what} of design.json has other zeros than the model; export with --redesign"
+                    )
+            made = self.block({**values, **given})
+            made.source, made.sample_time = source_line, made.sample_time
+            return made
+
+        def properties(given: dict[str, Any]) -> dict[str, tuple[float, float]]:
+            return {**solution.properties(given), **(self.gain.properties(given["gain"]) if designed else {})}
+
+        source_line = place_of_call()
+        source = solution.source() + (self.gain.source() if designed else "")
+        return Design({what: values[what] for what in names}, source, rebuild, properties)
 
 
 def _acting(plant: Plant, solution: RegulatorSolution) -> list[Signal]:
@@ -174,82 +340,10 @@ def _acting(plant: Plant, solution: RegulatorSolution) -> list[Signal]:
     return found
 
 
-def _declare(
-    block: Block,
-    plant: Plant,
-    where: OperatingPoint,
-    K: Array,
-    solution: RegulatorSolution,
-    maps: Mapping[str, Array],
-    acting: list[Signal],
-) -> tuple[dict[str, Symbol], list[Symbol], tuple[Places, Places]]:
-    """Declare inputs and parameters; return states, w, and where the elements of the maps stand."""
-    taken, states = {}, [state.signal for state in plant.states]
-    for signal in states:
-        ends = (signal.low, signal.high)
-        taken[signal.name] = block.input(signal.name, size=signal.size, unit=signal.unit, range=ends, doc=signal.doc)
-    generated = [
-        block.input(f"w_{signal}", size=len(columns), doc=f"state of the generator of {signal}")
-        for signal, columns in signal_groups(solution.exosystem)
-    ]
-    values = {**where.states, **where.inputs}
-    for signal in [*states, *acting]:
-        word = "set point of" if signal.name in taken else "what holds the set point:"
-        block.parameter(
-            signal.name,
-            values[signal.name],
-            unit=signal.unit,
-            range=(signal.low, signal.high),
-            doc=f"{word} {signal.name}",
-        )
-    rows = ", ".join(item.name for item in acting)
-    block.parameter("gain", K.ravel(), range=_reach(K), doc=f"K by rows ({rows}), columns in the order of the states")
-    order = [k for _, columns in signal_groups(solution.exosystem) for k in columns]
-    places = []
-    for what, letter in (("state_map", "Pi"), ("input_map", "Gamma")):
-        matrix = maps[what][:, order]
-        own = tuple((int(i), int(j)) for i, j in np.argwhere(matrix != 0))
-        places.append(own)
-        if own:
-            told = " ".join(f"({i} {j})" for i, j in own)
-            numbers = [float(matrix[i, j]) for i, j in own]
-            block.parameter(
-                what, numbers, range=_reach(np.array(numbers)), doc=f"{letter}, its elements {told}; the rest is zero"
-            )
-    return taken, generated, (places[0], places[1])
-
-
 def _reach(matrix: Array) -> tuple[float, float]:
     size = float(np.max(np.abs(matrix), initial=0.0))
     far = LARGEST_GAIN if size <= 0.1 * LARGEST_GAIN else 10.0 ** (math.ceil(math.log10(size)) + 1)
     return -far, far
-
-
-def _law(
-    block: Block,
-    plant: Plant,
-    taken: Mapping[str, Symbol],
-    generated: list[Symbol],
-    places: tuple[Places, Places],
-    acting: list[Signal],
-) -> dict[str, ca.SX]:
-    """Return the commands as expressions."""
-    wanted = {symbol.signal.name: symbol for symbol in block.param_symbols()}
-    w = ca.vertcat(ca.SX(0, 1), *generated)
-    size = sum(item.size for item in acting)
-    maps = []
-    for what, own, rows in (("state_map", places[0], plant.error_size), ("input_map", places[1], size)):
-        matrix = ca.SX(rows, w.numel())
-        for k, (i, j) in enumerate(own):
-            matrix[i, j] = ca.SX(wanted[what])[k]
-        maps.append(matrix)
-    K = ca.reshape(ca.SX(wanted["gain"]), plant.error_size, size).T
-    change = maps[1] @ w - K @ (deviation_from(plant, taken, wanted) - maps[0] @ w)
-    answer, start = {}, 0
-    for signal in acting:
-        answer[signal.name] = ca.SX(wanted[signal.name]) + change[start : start + signal.size]
-        start += signal.size
-    return answer
 
 
 def _near(plant: Plant, where: OperatingPoint, K: Array, solution: RegulatorSolution, generated: list[Symbol]) -> Calls:
@@ -282,46 +376,3 @@ def _near(plant: Plant, where: OperatingPoint, K: Array, solution: RegulatorSolu
             yield "step", inputs
 
     return calls
-
-
-def _design(block: Block, gain: Gain | Any, solution: RegulatorSolution, places: tuple[Places, Places]) -> Design:
-    """Return the record of Pi, Gamma and (of a Gain) K."""
-    designed = isinstance(gain, Gain)
-    first: dict[str, Any] = {**solution.rounded(), **({"gain": gain.rounded()} if designed else {})}
-    source = solution.source() + (gain.source() if designed else "")
-    order = [k for _, columns in signal_groups(solution.exosystem) for k in columns]
-
-    def rebuild(values: dict[str, Any]) -> Block:
-        given = {what: np.asarray(values[what], dtype=float) for what in first}
-        for what, matrix in given.items():
-            if matrix.shape != first[what].shape or not np.all(np.isfinite(matrix)):
-                raise ModelError(
-                    f"{block.name}: {what} of design.json has shape {matrix.shape}; give {first[what].shape[0]} x "
-                    f"{first[what].shape[1]} finite numbers, or export with --redesign"
-                )
-        numbers = {"gain": given["gain"].ravel()} if designed else {}
-        for what, own in zip(("state_map", "input_map"), places, strict=True):
-            matrix = given[what][:, order]
-            kept = np.array([matrix[i, j] for i, j in own])
-            rest = matrix.copy()
-            for i, j in own:
-                rest[i, j] = 0.0
-            if float(np.max(np.abs(rest), initial=0.0)) > 1e-9 * max(1.0, float(np.max(np.abs(matrix), initial=0.0))):
-                raise ModelError(
-                    f"{block.name}: {what} of design.json has other zeros than the model; export with --redesign"
-                )
-            numbers[what] = kept
-        made = copy.copy(block)
-        made.param_signals = [
-            replace(signal, default=tuple(float(item) for item in numbers[signal.name]))
-            if signal.name in numbers
-            else signal
-            for signal in block.param_signals
-        ]
-        made.design = Design({**values}, source, rebuild, properties)
-        return made
-
-    def properties(values: dict[str, Any]) -> dict[str, tuple[float, float]]:
-        return {**solution.properties(values), **(gain.properties(values["gain"]) if designed else {})}
-
-    return Design(first, source, rebuild, properties)

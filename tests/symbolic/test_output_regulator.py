@@ -15,6 +15,7 @@ from plantc import (
     Plant,
     ReferenceView,
     cross_check,
+    emit,
     kalman_filter,
     linearise,
     lqr,
@@ -171,11 +172,13 @@ def test_with_an_estimator_in_front(parts):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("what", ["bare", "estimator", "high gain"])
+@pytest.mark.parametrize("what", ["bare", "estimator", "high gain", "twins"])
 def test_the_c_of_the_regulator(parts, what):
     plant, gain, solution, generator = parts
     if what == "estimator":
         block = with_estimator(parts)
+    elif what == "twins":
+        block = of_twins(parts, tunable=False)
     elif what == "bare":
         block = output_regulator(plant, {}, gain, solution, generator, saturate=True)
     else:
@@ -202,3 +205,67 @@ def test_the_oracle_of_the_whole(parts):
             float(two.outputs["feedback"]["force"]), rel=1e-9
         )
         memory = one.memory
+
+
+def of_twins(parts, **options):
+    """Both signals observed by the very same Block."""
+    plant, gain, solution, _ = parts
+    one = kalman_exosystem(
+        polynomial("reading", 2).sampled(T, "euler"), process_variance=1e-4, measurement_variance=0.01, name="one"
+    )
+    return output_regulator(plant, {}, gain, solution, {"position": one, "wind": one}, **options)
+
+
+def test_one_generator_for_signals_of_one_kind(parts):
+    plant, gain, solution, generator = parts
+    whole, twins = InterpretView(output_regulator(plant, {}, gain, solution, generator)), InterpretView(of_twins(parts))
+    first, second, p, q = whole.init(), twins.init(), whole.params(), twins.params()
+    for k in range(20):
+        reference, wind = signals(k)
+        one = whole.call("step", first, whole.inputs("step", {
+            "generator_position": reference, "generator_has_position": k % 3 > 0, "generator_wind": wind,
+            "generator_has_wind": k % 4 > 0, "feedback_position": 0.1 * k, "feedback_speed": 0.3,
+        }), p)  # fmt: skip
+        two = twins.call("step", second, twins.inputs("step", {
+            "generator_position_reading": reference, "generator_position_has_reading": k % 3 > 0,
+            "generator_wind_reading": wind, "generator_wind_has_reading": k % 4 > 0,
+            "feedback_position": 0.1 * k, "feedback_speed": 0.3,
+        }), q)  # fmt: skip
+        assert float(one.outputs["feedback"]["force"]) == pytest.approx(
+            float(two.outputs["feedback"]["force"]), rel=1e-9
+        )
+        first, second = one.memory, two.memory
+    plant, gain, solution, _ = parts
+    with pytest.raises(ModelError, match="generators are given for position; give one for each of position, wind"):
+        output_regulator(plant, {}, gain, solution, {"position": generator})
+    with pytest.raises(ModelError, match="the generator of 'position' observes w_position, w_wind; give it one signal"):
+        output_regulator(plant, {}, gain, solution, {"position": generator, "wind": generator})
+
+
+def test_twins_share_their_c(parts):
+    text = emit(of_twins(parts))
+    assert "regulator_generator_position_step_core(" in text.source
+    assert "spring_regulator_generator_wind_step_core(" not in text.source
+    assert "typedef spring_regulator_generator_position_state_t spring_regulator_generator_wind_state_t;" in text.header
+    assert text.operations["generator_wind.predict"] == text.operations["generator_position.predict"]
+
+
+def test_numbers_that_are_folded(parts):
+    plant, gain, solution, _ = parts
+    laws = [
+        regulator_feedback(plant, {"position": 0.3, "force": 0.3}, gain, solution, tunable=how) for how in (True, False)
+    ]
+    assert {signal.name for signal in laws[1].param_signals} == {"position", "speed", "force"}
+    inputs = {"position": 0.2, "speed": -0.7, "w_position": [1.0, 2.0, 3.0], "w_wind": [0.1, 0.2, 0.3]}
+    found = []
+    for law in laws:
+        for kind in (InterpretView, ReferenceView):
+            view = kind(law)
+            answer = view.call("step", view.init(), view.inputs("step", inputs), view.params())
+            found.append(float(answer.outputs["force"]))
+    np.testing.assert_allclose(found, found[0], rtol=1e-12)
+    again = laws[1].design.rebuild({**laws[1].design.values, "gain": 2 * gain.rounded()})
+    view = InterpretView(again)
+    other = float(view.call("step", view.init(), view.inputs("step", inputs), view.params()).outputs["force"])
+    assert abs(other - found[0]) > 0.1
+    assert again.source == laws[1].source
