@@ -43,7 +43,7 @@ CONTROLLERS: list[tuple[Block, str]] = [
     (quadrotor_jsse_controller, "float"),
     (quadrotor_jssem_controller, "float"),
 ]
-"""Compositions of a filter and a feedback. CI looks for drift only: `plantc audit` and `check --prove` do the rest."""
+"""Compositions of a filter and a feedback. CI looks for drift, and whether their proofs are on record; no audit."""
 
 EXAMPLES = PARTS + CONTROLLERS
 """Block and precision of everything under `generated_c/`."""
