@@ -204,7 +204,8 @@ def test_a_known_start_has_the_estimate_at_the_truth_and_the_command_that_belong
 
 
 INTERRUPTED = """
-import sys, time, os
+import signal, sys, time
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background job is started with it ignored
 from plantc import Block, Plant
 from plantc.simulation import closed_loop, monte_carlo
 plant = Plant("tank", dt=1.0)
