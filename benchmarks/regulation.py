@@ -1,11 +1,13 @@
-"""Time of the regulator equations: the 28-dimensional ones, and how the triangular solver grows beside r (n + m)^3."""
+"""Time of the regulator equations, and the cost on a Cortex-M4 of a regulator with a generator of 28 states."""
 
 from __future__ import annotations
 
 import argparse
 import json
 import os
+import tempfile
 import time
+from pathlib import Path
 from typing import Any
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # one thread: the time is not that of a busy machine's scheduler
@@ -76,11 +78,82 @@ def measure() -> dict[str, Any]:
     return answer
 
 
+def regulators() -> dict[str, Any]:
+    """Return kind of generator -> bytes of text, and the most instructions of a step, over 60 with all readings.
+
+    The quadrotor, references of degree 6 (28 states; 8 for the high-gain observer, of degree 1); each signal has an observer of
+    its own, all four the same Block, and K, Pi and Gamma are folded into the C.
+    """
+    from plantc.codegen import TargetView
+    from plantc.codegen.emulator import Call
+    from plantc.codegen.targets import TARGETS
+    from plantc.examples.quadrotor_ekf import quadrotor as model
+    from plantc.symbolic.output_regulator import output_regulator
+    from plantc.symbolic.signal_generators import high_gain_exosystem, kalman_exosystem
+
+    from plantc import NativeView, linearise, lqr, trim
+
+    plant, outputs = model.discretise("euler", dt=DT), ("x", "y", "z", "yaw")
+    point = trim(plant, hold=dict.fromkeys(outputs, 0.0))
+    linear = linearise(plant, point)
+    gain = lqr(linear, Q=100 * np.ones(12), R=1)
+    chain, straight = (polynomial("reading", degree).sampled(DT, "euler") for degree in (6, 1))
+    noise: dict[str, Any] = {"process_variance": 1e-12, "measurement_variance": 0.01}
+    kinds = {
+        "Kalman filter": (6, kalman_exosystem(chain, name="generator", **noise)),
+        "Kalman filter in steady state": (6, kalman_exosystem(chain, name="generator", steady=True, **noise)),
+        "high-gain observer": (1, high_gain_exosystem(straight, coefficients=(2, 1), epsilon=0.1, name="generator")),
+    }
+    answer: dict[str, Any] = {}
+    for kind, (degree, one) in kinds.items():
+        tracks = compose([polynomial(name, degree) for name in outputs]).sampled(DT, "euler")
+        solution = francis(linear, tracks)
+        block = output_regulator(
+            plant, point, gain, solution, dict.fromkeys(outputs, one), saturate=True, tunable=False, name="regulator"
+        )
+        view = TargetView(block, "float", TARGETS["cortex-m4"])
+        native, rng, calls = NativeView(block, "float"), np.random.default_rng(0), []
+        params = native.params()
+        memory = native.init(params)
+        for _ in range(60):
+            given: dict[str, Any] = {}
+            for signal in block.entries["step"].inputs:
+                flag = signal.kind.value == "flag"
+                given[signal.name] = (
+                    True if flag else 0.1 * rng.normal() if signal.name.startswith("generator") else 0.0
+                )
+            inputs = native.inputs("step", given)
+            calls.append(Call("step", inputs, memory, params))
+            result = native.call("step", memory, inputs, params)
+            assert result.status >= 0
+            memory = result.memory
+        view.calls(calls)
+        answer[kind] = {"instructions": view.most["step"].instructions, "text": text_of(view), "states": tracks.order}
+    return answer
+
+
+def text_of(view: Any) -> int:
+    """Return the bytes of text of the library that a view runs, with the functions it calls."""
+
+    from plantc.codegen.targets import Sizes, linked_library
+
+    with tempfile.TemporaryDirectory() as name:
+        sizes = Sizes.of(linked_library(view.toolchain, view.text, list(view.block.entries), Path(name)))
+    assert sizes is not None
+    return int(sizes.text)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--json", action="store_true")
+    parser.add_argument(
+        "--target", action="store_true", help="regulators on a Cortex-M4, too: arm-none-eabi-gcc and QEMU"
+    )
+    arguments = parser.parse_args()
     found = measure()
-    if parser.parse_args().json:
+    if arguments.target:
+        found["regulators"] = regulators()
+    if arguments.json:
         print(json.dumps(found))
         return
     for name, value in found["milliseconds_28"].items():
@@ -91,6 +164,10 @@ def main() -> None:
                 f"{what}: n + m = {row['n+m']}, r = {row['r']}: {row['milliseconds']:.2f} ms; time grew "
                 f"{row['growth of the time']:.2f} times, r (n + m)^3 {row['growth of the bound']:.1f} times"
             )
+    for kind, cost in found.get("regulators", {}).items():
+        print(
+            f"{kind}: {cost['states']} states, {cost['text']} bytes of text, at most {cost['instructions']} instructions a step"
+        )
 
 
 if __name__ == "__main__":

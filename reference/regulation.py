@@ -213,3 +213,140 @@ class RegulatorFeedback:
         for (i, j), value in zip(places, values if values is not None else (), strict=True):
             matrix[i, j] = value
         return matrix
+
+
+@dataclass(frozen=True)
+class RetunedRegulator:
+    """A regulator that solves its equations anew from the plant's parameters, when it starts.
+
+    By another road than elimination: u* by Newton's method, the plant's matrices by complex step, Pi and Gamma by the whole
+    Kronecker matrix. Everything in double precision; what is stored is rounded.
+
+    Attributes
+    ----------
+    law : RegulatorFeedback
+        Of `step`; its maps and u* are memory.
+    step : callable
+        (x, u, p) -> the rates, or the next state of a discrete plant; takes complex numbers.
+    discrete : bool
+        Which of these.
+    outputs : callable
+        (x, u, p) -> the regulated outputs.
+    pivots : callable
+        (p) -> what the elimination divides by, of its nominal values, and what is left of the equilibrium: a property of the
+        compiled algorithm, which says how far parameters may be from those it was made for.
+    x, u : array
+        The set point at the nominal parameters.
+    acting, away : tuple of int
+        Inputs that act, and measured disturbances.
+    generator : (S, Q, Q_dis)
+        The exosystem: references and disturbances.
+    plant_params : tuple of str
+    limits : (least pivot, largest residual, number of pivots)
+    memory, params, inputs, outputs_in : tuple of Range
+    """
+
+    law: RegulatorFeedback
+    step: Callable[..., Any]
+    discrete: bool
+    outputs: Callable[..., Any]
+    pivots: Callable[..., Any]
+    x: Array
+    u: Array
+    acting: tuple[int, ...]
+    away: tuple[int, ...]
+    generator: tuple[Array, Array, Array]
+    plant_params: tuple[str, ...]
+    limits: tuple[float, float, int]
+    memory: tuple[Range, ...]
+    params: tuple[Range, ...]
+    inputs: tuple[Range, ...]
+    outputs_in: tuple[Range, ...]
+
+    def solve(self, p: Array) -> tuple[Array, Array, Array]:
+        """Return u* of the acting inputs, Pi and Gamma for a parameter vector."""
+        n, acting = len(self.x), list(self.acting)
+
+        def rates(x: Array, u: Array) -> Array:
+            answer = np.ravel(self.step(x, u, p)[0])
+            return answer - x if self.discrete else answer
+
+        u = self.u.astype(float)
+        for _ in range(50):
+            slope = _complex_step(lambda v: rates(self.x, v), u)[:, acting]
+            u[acting] -= np.linalg.lstsq(slope, rates(self.x, u), rcond=None)[0]
+        A = _complex_step(lambda x: np.ravel(self.step(x, u, p)[0]), self.x)
+        B = _complex_step(lambda v: np.ravel(self.step(self.x, v, p)[0]), u)
+        C = _complex_step(lambda x: np.ravel(self.outputs(x, u, p)[0]), self.x)
+        F = _complex_step(lambda v: np.ravel(self.outputs(self.x, v, p)[0]), u)
+        S, Q, Q_dis = self.generator
+        eye, r, away, m = np.eye(len(S)), len(S), list(self.away), len(C)
+        M = np.block([[np.kron(eye, A) - np.kron(S.T, np.eye(n)), np.kron(eye, B[:, acting])],
+                      [np.kron(eye, C), np.kron(eye, F[:, acting])]])  # fmt: skip
+        right = np.concatenate([-(B[:, away] @ Q_dis).ravel("F"), (Q - F[:, away] @ Q_dis).ravel("F")])
+        z = np.linalg.lstsq(M, right, rcond=None)[0]
+        assert len(right) == (n + m) * r
+        return u[acting], z[: n * r].reshape(r, n).T, z[n * r :].reshape(r, len(acting)).T
+
+    def call(
+        self, entry: str, memory: Any, inputs: Any, params: Any, precision: Any
+    ) -> tuple[int, dict[str, Any], dict[str, Any]]:
+        """Run an entry; see `plantc.symbolic.block.Oracle`."""
+        given = {name: np.ravel(np.asarray(value, precision)) for name, value in params.items()}
+        if entry == "init":
+            return self._init(given)
+        if not all(item.holds(inputs, precision) for item in self.inputs):
+            return BAD_INPUT, {}, {}
+        stored = {name: np.ravel(np.asarray(value, precision)) for name, value in memory.items()}
+        known, start = {**given, "state_map": stored["state_map"], "input_map": stored["input_map"]}, 0
+        for name, size, _, _ in self.law.inputs:
+            known[name] = stored["hold"][start : start + size]
+            start += size
+        with np.errstate(all="ignore"):
+            was_held, _, commands = self.law(
+                {}, {k: np.ravel(np.asarray(v, precision)) for k, v in inputs.items()}, known
+            )
+        if not all(item.holds(commands, precision) for item in self.outputs_in):
+            return OVERFLOW, {}, {}
+        return 2 if was_held else 0, stored, commands
+
+    def _init(self, given: Fields) -> tuple[int, dict[str, Any], dict[str, Any]]:
+        if not all(item.holds(given, item_kind(given)) for item in self.params):
+            return BAD_PARAM, {}, {}
+        p = np.concatenate([np.zeros(0), *[given[name].astype(float) for name in self.plant_params]])
+        least, most, count = self.limits
+        with np.errstate(all="ignore"):
+            judged = np.ravel(self.pivots(p)[0])
+        if not (np.all(judged[:count] >= least) and np.all(np.abs(judged[count:]) <= most)):
+            return BAD_PARAM, {}, {}
+        hold, Pi, Gamma = self.solve(p)
+        after = {"hold": hold}
+        for name, matrix, places in (
+            ("state_map", Pi, self.law.state_places),
+            ("input_map", Gamma, self.law.input_places),
+        ):
+            after[name] = np.array([matrix[i, j] for i, j in places])
+            rest = matrix.copy()
+            for i, j in places:
+                rest[i, j] = 0.0
+            if np.max(np.abs(rest), initial=0.0) > 1e-6 * max(1.0, float(np.max(np.abs(matrix), initial=0.0))):
+                raise ValueError(f"{name} has an element that is not kept, and not zero")
+        after = {name: value.astype(item_kind(given)) for name, value in after.items()}
+        return (
+            (0, after, {}) if all(item.holds(after, item_kind(given)) for item in self.memory) else (OVERFLOW, {}, {})
+        )
+
+
+def item_kind(given: Fields) -> Any:
+    """Return the precision of fields."""
+    return next(iter(given.values())).dtype.type
+
+
+def _complex_step(function: Callable[[Array], Array], at: Array) -> Array:
+    """Return the Jacobian of a function of real numbers, without a difference (Squire and Trapp 1998)."""
+    columns = []
+    for k in range(len(at)):
+        moved = at.astype(complex)
+        moved[k] += 1e-30j
+        columns.append(np.imag(function(moved)) / 1e-30)
+    return np.stack(columns, axis=1) if columns else np.zeros((len(function(at)), 0))

@@ -429,10 +429,16 @@ def _composed_design(block: Block, order: list[str]) -> Design | None:
 
     def rebuild(values: dict[str, Any]) -> Block:
         made = copy.copy(block)
-        made.parts = {
-            part: designs[part].rebuild(own(values, part)) if part in designs else inner
-            for part, inner in block.parts.items()
-        }
+        rebuilt: dict[tuple[int, str], Block] = {}  # parts that are the same Block, with the same numbers, stay so
+        made.parts = {}
+        for part, inner in block.parts.items():
+            if part in designs:
+                given = own(values, part)
+                key = id(inner), repr(sorted((name, np.asarray(item).tolist()) for name, item in given.items()))
+                if key not in rebuilt:
+                    rebuilt[key] = designs[part].rebuild(given)
+                inner = rebuilt[key]
+            made.parts[part] = inner
         made.source_hash = _source_hash(made, order)
         if isinstance(block.oracle, ComposedOracle):
             made.oracle = ComposedOracle(made, order)

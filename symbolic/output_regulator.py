@@ -20,6 +20,7 @@ from .controllers import LARGEST_GAIN, deviation_from
 from .design import Gain
 from .errors import ModelError
 from .origins import place_of_call
+from .parametric_regulator import ParametricRegulator
 from .plant import Plant, Symbol
 from .regulator_equations import RegulatorSolution, closed_loop, linear_model
 from .signal_generators import signal_groups
@@ -35,7 +36,7 @@ def output_regulator(
     plant: Plant,
     point: Mapping[Any, Any],
     gain: Gain | Any,
-    solution: RegulatorSolution,
+    solution: RegulatorSolution | ParametricRegulator,
     generator: Block | Mapping[str, Block],
     *,
     estimator: Block | None = None,
@@ -55,8 +56,10 @@ def output_regulator(
         x* and u*, where the plant was linearised.
     gain : Gain, or (acting inputs, n) array
         K; A - B K has to be stable.
-    solution : RegulatorSolution
-        Of `francis`: Pi and Gamma. Measured disturbances are in it; they are inputs of the plant that do not act.
+    solution : RegulatorSolution or ParametricRegulator
+        Of `francis`: Pi and Gamma; or of `parametric_francis`, with which `init` computes them, and u*, from the parameters of
+        the plant (K is then folded into the C; see `retunable_feedback`). Measured disturbances are in it; they are inputs of
+        the plant that do not act.
     generator : Block, or dict
         Of `kalman_exosystem` or `high_gain_exosystem`: the observer of w, one vector ``w_<signal>`` for each signal. Or signal
         -> an observer of that signal alone; signals of one kind may have the very same Block, which then is in the C once.
@@ -86,10 +89,18 @@ def output_regulator(
         If shapes or names do not match.
     """
     name = name or f"{plant.name}_regulator"
-    feedback = regulator_feedback(
-        plant, point, gain, solution, saturate=saturate, tunable=tunable, accept_unstable=accept_unstable,
-        name=f"{plant.name}_feedback",
-    )  # fmt: skip
+    if isinstance(solution, ParametricRegulator):
+        from .retunable_regulator import retunable_feedback
+
+        feedback = retunable_feedback(
+            plant, gain, solution, saturate=saturate, accept_unstable=accept_unstable, name=f"{plant.name}_feedback"
+        )
+        solution = solution.nominal
+    else:
+        feedback = regulator_feedback(
+            plant, point, gain, solution, saturate=saturate, tunable=tunable, accept_unstable=accept_unstable,
+            name=f"{plant.name}_feedback",
+        )  # fmt: skip
     parts, joined = _generators(name, generator, solution)
     feedback.sample_time = next((part.sample_time for part in parts.values() if part.sample_time), feedback.sample_time)
     if estimator is not None:

@@ -14,7 +14,7 @@ from ..reference.controllers import Range
 from ..reference.regulation import HighGainOracle
 from .block import Block, Scenario
 from .errors import ModelError
-from .estimators import kalman_filter
+from .estimators import kalman_filter, steady_state_kalman_filter
 from .exosystems import Exosystem
 from .plant import Plant
 from .program import Assign, Element, Entry, Evaluate, IsSet, Place, Refuse, Statement, When, Within
@@ -134,6 +134,7 @@ def kalman_exosystem(
     process_variance: Any,
     measurement_variance: Any,
     initial_variance: float = 1.0,
+    steady: bool = False,
     ranges: Mapping[str, tuple[float, float]] | None = None,
     name: str = "exosystem",
     doc: str = "",
@@ -148,6 +149,9 @@ def kalman_exosystem(
         of the past, whose gain decays.
     initial_variance : float
         Of every state, one step before the first reading of `step`.
+    steady : bool
+        Whether the gain is that of the steady state: no covariance is kept, at a small part of the cost. All readings then
+        have one flag, ``has_readings``; for flags of their own give each signal a Block of its own. The process needs noise.
     doc : str
         Its meaning.
     **options
@@ -166,6 +170,13 @@ def kalman_exosystem(
         ranges=ranges,
         name=name,
     )
+    if steady:
+        if options:
+            raise ModelError(
+                f"{name}: {', '.join(options)} is for a filter with a covariance; leave it out, or steady=True"
+            )
+        text = doc or f"Kalman filter in steady state as the generator of {', '.join(exosystem.signals)}"
+        return steady_state_kalman_filter(plant, name=name, doc=text)
     variances = {state.signal.name: float(initial_variance) for state in plant.states}
     text = doc or f"Kalman filter as the generator of {', '.join(exosystem.signals)}"
     return kalman_filter(plant, initial_variance=variances, name=name, doc=text, **options)

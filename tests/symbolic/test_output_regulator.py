@@ -250,6 +250,22 @@ def test_twins_share_their_c(parts):
     assert text.operations["generator_wind.predict"] == text.operations["generator_position.predict"]
 
 
+def test_twins_stay_twins_with_designed_numbers(parts):
+    plant, gain, solution, _ = parts
+    one = kalman_exosystem(
+        polynomial("reading", 2).sampled(T, "euler"),
+        process_variance=1e-4,
+        measurement_variance=0.01,
+        steady=True,
+        name="one",
+    )
+    block = output_regulator(plant, {}, gain, solution, {"position": one, "wind": one})
+    again = block.design.rebuild(block.design.values)
+    assert again.twin("generator_wind") == "generator_position"
+    other = {**block.design.values, "generator_wind.gain": 1.5 * block.design.values["generator_wind.gain"]}
+    assert block.design.rebuild(other).twin("generator_wind") == "generator_wind"
+
+
 def test_numbers_that_are_folded(parts):
     plant, gain, solution, _ = parts
     laws = [

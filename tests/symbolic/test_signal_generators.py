@@ -146,6 +146,26 @@ def test_no_process_noise_is_a_fit_to_all_of_the_past():
     np.testing.assert_allclose(found[:, 0], np.cumsum(readings) / (np.arange(1, 51) + 1), rtol=1e-12)
 
 
+def test_a_constant_gain():
+    chain = polynomial("x", 6).sampled(T, "euler")
+    block = kalman_exosystem(chain, process_variance=D, measurement_variance=M, steady=True)
+    assert [signal.name for signal in block.memory_signals] == ["w_x"]
+    G, view, w = np.array(block.design.values["gain"])[:, 0], InterpretView(block), np.zeros(7)
+    np.testing.assert_allclose(G, STEADY[6], rtol=2e-5)
+    params, memory = view.params(), view.init()
+    for k in range(50):
+        there, z = k % 5 > 0, float(psi(T * k)[0])
+        inputs = {"x": z if there else np.nan, "has_readings": there}
+        memory = view.call("step", memory, view.inputs("step", inputs), params).memory
+        w = chain.matrix @ w
+        w = w + G * (z - w[0]) if there else w
+        np.testing.assert_allclose(np.ravel(memory["w_x"]), w, rtol=1e-9, atol=1e-15)
+    with pytest.raises(ModelError, match="form is for a filter with a covariance"):
+        kalman_exosystem(chain, process_variance=D, measurement_variance=M, steady=True, form="ud")
+    with pytest.raises(ModelError, match="no stabilising gain exists"):
+        kalman_exosystem(chain, process_variance=0.0, measurement_variance=M, steady=True)
+
+
 def test_superposed_and_general_exosystems():
     whole = compose([superpose([harmonic("x", 0.3), harmonic("x", 0.7)]), constant("y", unit="m")]).sampled(0.1)
     block = kalman_exosystem(whole, process_variance={"x": 1e-6, "y": 1e-8}, measurement_variance={"x": 0.1, "y": 0.2})

@@ -1,0 +1,100 @@
+"""A regulator that is retuned without being exported again: u*, Pi and Gamma follow the parameters of the plant."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plantc.symbolic.exosystems import compose, constant, polynomial
+from plantc.symbolic.output_regulator import output_regulator
+from plantc.symbolic.parametric_regulator import parametric_francis
+from plantc.symbolic.regulator_equations import RegulatorError, francis
+from plantc.symbolic.retunable_regulator import retunable_feedback
+from plantc.symbolic.signal_generators import kalman_exosystem
+
+from plantc import InterpretView, ModelError, Plant, ReferenceView, cross_check, linearise, lqr, trim
+
+
+def lift():
+    """A rotor that carries a weight; the slope it stands on is measured."""
+    plant = Plant("lift")
+    height, climb = plant.state("height", unit="m", range=(-100, 100)), plant.state("climb", range=(-100, 100))
+    rotor, wind = plant.input("rotor", unit="rad/s", range=(0, 1000)), plant.input("wind", range=(-10, 10))
+    mass, drag = plant.parameter("mass", 1.0, range=(1e-6, 4)), plant.parameter("drag", 0.3, range=(0, 2))
+    plant.dynamics({height: climb, climb: 2e-4 * rotor**2 / mass - 9.81 - drag * climb / mass + wind / mass})
+    return plant.discretise("euler", dt=0.02)
+
+
+@pytest.fixture(scope="module")
+def parts():
+    plant = lift()
+    generator = compose([polynomial("height", 2), constant("wind")]).sampled(0.02, "euler")
+    point = trim(plant, hold={"height": 0, "wind": 0})
+    regulator = parametric_francis(plant, point, generator)
+    model = regulator.nominal.model
+    gain = lqr((model.A, model.B, 0.02), Q=[1e4, 1e3], R=1)
+    return plant, generator, regulator, gain
+
+
+@pytest.mark.parametrize("view", [InterpretView, ReferenceView])
+def test_init_solves_the_equations_for_the_parameters(parts, view):
+    plant, generator, regulator, gain = parts
+    block = retunable_feedback(plant, gain, regulator)
+    here = view(block)
+    for mass, drag in ((1.0, 0.3), (2.5, 0.1)):
+        memory = here.init(here.params(mass=mass, drag=drag))
+        at = trim(plant, hold={"height": 0, "wind": 0, "mass": mass, "drag": drag})
+        expected = francis(linearise(plant, at), generator)
+        assert float(memory["hold"]) == pytest.approx(at["rotor"], rel=1e-9)
+        assert float(memory["hold"]) == pytest.approx(np.sqrt(mass * 9.81 / 2e-4), rel=1e-9)
+        law = block.oracle.law
+        for what, places, matrix in (
+            ("state_map", law.state_places, expected.state_map), ("input_map", law.input_places, expected.input_map),
+        ):  # fmt: skip
+            np.testing.assert_allclose(np.ravel(memory[what]), [matrix[i, j] for i, j in places], rtol=1e-8, atol=1e-9)
+
+
+def test_parameters_too_far_away_are_a_status(parts):
+    plant, _, regulator, gain = parts
+    block = retunable_feedback(plant, gain, regulator)
+    for kind in (InterpretView, ReferenceView):
+        view = kind(block)
+        for mass, status in ((0.5, 0), (1e-5, -2)):
+            params = view.params(mass=mass)
+            assert view.call("init", view.memory(), view.inputs("init", {}), params).status == status, (kind, mass)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("saturate", [True, False])
+def test_the_c_of_it(parts, saturate):
+    plant, _, regulator, gain = parts
+    assert cross_check(retunable_feedback(plant, gain, regulator, saturate=saturate), "double", steps=60).passed
+
+
+def test_what_is_refused(parts):
+    plant, _, regulator, gain = parts
+    with pytest.raises(RegulatorError, match="A - B K has spectral radius"):
+        retunable_feedback(plant, -gain.gain, regulator)
+    with pytest.raises(ModelError, match=r"the gain has shape \(1, 3\); give 1 x 2"):
+        retunable_feedback(plant, np.ones((1, 3)), regulator)
+
+
+def test_a_wrong_map_is_seen_by_the_oracle(parts):
+    """The planted fault: Gamma is off by a thousandth; the oracle solves the equations by another road."""
+    plant, _, regulator, gain = parts
+    wrong = replace(regulator, input_map=1.001 * regulator.input_map)
+    block = retunable_feedback(plant, gain, wrong)
+    first, second = (view(block) for view in (InterpretView, ReferenceView))
+    ours, theirs = (view.init(view.params()) for view in (first, second))
+    assert np.max(np.abs(np.ravel(ours["input_map"]) / np.ravel(theirs["input_map"]) - 1)) == pytest.approx(
+        1e-3, rel=1e-6
+    )
+
+
+def test_in_a_whole_regulator(parts):
+    plant, _, regulator, gain = parts
+    signals = compose([polynomial("height", 2), constant("wind")]).sampled(0.02, "euler")
+    generator = kalman_exosystem(signals, process_variance=1e-6, measurement_variance=1e-4)
+    whole = output_regulator(plant, {}, gain, regulator, generator, saturate=True)
+    view = InterpretView(whole)
+    light, heavy = (view.init(view.params(feedback__mass=mass))["feedback"]["hold"] for mass in (1.0, 2.0))
+    assert float(heavy / light) == pytest.approx(np.sqrt(2), rel=1e-9)
