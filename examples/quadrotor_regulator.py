@@ -91,7 +91,7 @@ def tracks(degree: int) -> Exosystem:
     return compose([polynomial(name, degree) for name in references]).sampled(T, "euler")
 
 
-def regulator(degree: int, name: str, **options: Any) -> Block:
+def regulator(degree: int, name: str, *, steady: bool = False, **options: Any) -> Block:
     """Return the regulator whose exosystem is a Kalman filter of a polynomial of a degree for each reference.
 
     Parameters
@@ -100,6 +100,8 @@ def regulator(degree: int, name: str, **options: Any) -> Block:
         Of the polynomials: 2 or 6 in the paper.
     name : str
         Of the Block.
+    steady : bool
+        Whether the filter has the gain at which it arrives from the start, and no covariance.
     **options
         As for `plantc.symbolic.output_regulator.output_regulator`.
     """
@@ -108,6 +110,7 @@ def regulator(degree: int, name: str, **options: Any) -> Block:
         process_variance=process_variance,
         measurement_variance=measurement_variance,
         ranges={"reading": reach},
+        steady=steady,
         name="generator",
     )
     return output_regulator(
@@ -133,4 +136,5 @@ def high_gain_regulator(name: str, **options: Any) -> Block:
 
 
 quadrotor_regulator = regulator(6, "quadrotor_regulator", tunable=False)  # 28 states of the exosystem
+quadrotor_steady_regulator = regulator(6, "quadrotor_steady_regulator", steady=True, tunable=False)
 quadrotor_high_gain_regulator = high_gain_regulator("quadrotor_high_gain_regulator", tunable=False)

@@ -344,6 +344,7 @@ def rejected(generator: Exosystem, w: Array, wanted: Array, wind: Array, start: 
     return answer
 
 
+@cache
 def disturbance_cases(seed: int = 0) -> dict[str, dict[str, Array]]:
     """Return the errors of the small plant over 60 s: case -> with and without P_d."""
     t, answer = T * np.arange(3001), {}
