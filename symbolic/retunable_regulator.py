@@ -113,7 +113,8 @@ def retunable_feedback(
     )
     block.sample_time = plant.dt if isinstance(plant.dt, float) else solution.exosystem.dt
     block.source_hash = plant.fingerprint() + repr(K.tolist())
-    _finish(block, plant, regulator, K, places, acting, generated, saturate)
+    block.oracle = _oracle(block, plant, regulator, K, places, acting, generated, saturate)
+    block.scenario = _scenario(plant, regulator, K, places, acting, generated)
     return block
 
 
@@ -224,7 +225,7 @@ def _init(
     return Entry("init", (), (), tuple(body), doc, checks_params=True)
 
 
-def _finish(
+def _oracle(
     block: Block,
     plant: Plant,
     regulator: ParametricRegulator,
@@ -233,8 +234,8 @@ def _finish(
     acting: list[Signal],
     generated: list[Symbol],
     saturate: bool,
-) -> None:
-    """Give the block its oracle and its scenario."""
+) -> RetunedRegulator:
+    """Return the oracle: f and h lowered to NumPy, the set point, and the exosystem."""
     solution, x, u, p = regulator.nominal, plant.x, plant.u, plant.p
     if plant.discretisation is not None:
         following = plant.x + increment(plant)
@@ -267,7 +268,7 @@ def _finish(
         saturate,
         {"gain": K.ravel()},
     )
-    block.oracle = RetunedRegulator(
+    return RetunedRegulator(
         law=law,
         step=numpy_callable(ca.Function("step", [x, u, p], [ca.densify(following)])),
         discrete=plant.is_discrete,
@@ -285,6 +286,18 @@ def _finish(
         inputs=tuple(of(signal) for signal in block.entries["step"].inputs),
         outputs_in=tuple(of(signal) for signal in acting),
     )
+
+
+def _scenario(
+    plant: Plant,
+    regulator: ParametricRegulator,
+    K: Array,
+    places: dict[str, Places],
+    acting: list[Signal],
+    generated: list[Symbol],
+) -> Scenario:
+    """Return calls so near the set point that commands stay within their ranges, and memories near the nominal one."""
+    order = [k for _, columns in signal_groups(regulator.nominal.exosystem) for k in columns]
     found = regulator.at(_defaults(plant))
     numbers = {"hold": _numbers(plant, regulator, acting)}
     for what, own in places.items():
@@ -313,7 +326,7 @@ def _finish(
     def memory(rng: Any) -> dict[str, Any]:
         return {name: item * rng.uniform(0.9, 1.1, len(item)) for name, item in numbers.items() if len(item)}
 
-    block.scenario = Scenario(calls, memory)
+    return Scenario(calls, memory)
 
 
 def _numbers(plant: Plant, regulator: ParametricRegulator, acting: list[Signal]) -> Array:
