@@ -289,8 +289,16 @@ def fly(kind: str, aims: Sequence[Aim]) -> list[Flight]:
 # What the linear theory says
 
 
+def estimate_responses(degree: int, D: float = process_variance) -> Array:
+    """Return H(e^(jwT)) of the filter in steady state, from a signal to its estimate, at the two frequencies, shape (2,)."""
+    S, G = np.eye(degree + 1) + T * np.eye(degree + 1, k=1), kalman_gains(degree, D, measurement_variance, 20000)[-1]
+    left = (np.eye(degree + 1) - np.outer(G, np.eye(degree + 1)[0])) @ S
+    turns = [np.exp(1j * w * T) for w in (SLOW, FAST)]
+    return np.array([np.linalg.solve(z * np.eye(degree + 1) - left, z * G)[0] for z in turns])
+
+
 def predicted_amplitudes(degree: int, D: float = process_variance) -> Array:
-    """Return the amplitude of the error of x for each of the two sinusoids of psi_1, in steady state, shape (2,)."""
+    """Return the amplitude (m) of the error of x for each of the two sinusoids of psi_1, in steady state, shape (2,)."""
     solution, q = maps(degree), degree + 1
     G = kalman_gains(degree, D, measurement_variance, 20000)[-1]
     S = np.eye(q) + T * np.eye(q, k=1)
