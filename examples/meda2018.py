@@ -11,7 +11,7 @@ import hashlib
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from itertools import pairwise
 from math import exp, nan, pi
 from typing import TYPE_CHECKING, Any
@@ -32,11 +32,13 @@ from plantc.simulation import (
     StudyTable,
     closed_loop,
     connected,
+    each,
     judge,
     monte_carlo,
     replay,
     stream,
 )
+from plantc.simulation.monte_carlo import cores
 from plantc.symbolic import Block, Plant, vertcat
 from plantc.symbolic.analysis import linearise
 from plantc.symbolic.composition import connect, wires
@@ -789,12 +791,17 @@ def _summary(rows: Rows) -> str:
     )  # fmt: skip
 
 
+def _row(case: Case, *, runs: int, seed: int, on: str | None, jobs: int | None) -> Row:
+    return Row.of_result(evaluate(case, runs, seed, on=on, jobs=jobs))
+
+
 def study(
     runs: int = 20,
     seed: int = 2018,
     *,
     on: str | None = None,
     jobs: int | None = None,
+    processes: int | None = None,
     progress: Progress | None = None,
 ) -> StudyResult:
     """Do the whole study.
@@ -807,6 +814,8 @@ def study(
         Key of the random streams.
     on, jobs
         As for `plantc.simulation.monte_carlo`.
+    processes : int, optional
+        In how many processes the cases are run; default here one for each core, from 10 runs on. It changes no number.
     progress : callable, optional
         Called with what is done, and how many of how many cases are.
 
@@ -816,6 +825,10 @@ def study(
         As by `plantc.simulation.monte_carlo`.
     """
     tell = progress or (lambda what, done, total: None)
+    if processes is None:  # each takes some seconds to start, which a few runs are not worth
+        processes = cores() if on is None and runs >= 10 else 1
+    if processes > 1:
+        jobs = 1
     clock = {"start": time.perf_counter()}
     wanted = cases()
     total = len(wanted) + len(DEVIATIONS)
@@ -825,9 +838,10 @@ def study(
         seconds = times()
         clock["compiling"] = time.perf_counter()
         rows: dict[Case, Row] = {}
-        for done, case in enumerate(wanted):
-            tell(f"protocol {case.protocol}, r = {case.r:g}, {case.estimator}", done, total)
-            rows[case] = Row.of_result(evaluate(case, runs, seed, on=on, jobs=jobs))
+        made = each(partial(_row, runs=runs, seed=seed, on=on, jobs=jobs), wanted, processes)
+        for done, (case, row) in enumerate(zip(wanted, made, strict=True)):
+            rows[case] = row
+            tell(f"protocol {case.protocol}, r = {case.r:g}, {case.estimator}", done + 1, total)
         tell("without noise", len(wanted), total)
         free = {deviation: without_noise(deviation, runs, seed, on=on, jobs=jobs) for deviation in DEVIATIONS}
     clock["runs"] = time.perf_counter()

@@ -11,7 +11,7 @@ from .models import UsageError
 if TYPE_CHECKING:
     from .simulation import StudyResult
 
-STUDIES = {"meda2018": "plantc.examples.meda2018"}
+STUDIES = {"meda2018": "plantc.examples.meda2018", "regulation2023": "plantc.examples.regulation2023"}
 """Name -> module; its ``study(runs, seed, *, on, progress)`` returns a `plantc.simulation.StudyResult` of that name."""
 
 

@@ -6,7 +6,7 @@ from .metrics import History, Judgement, judge, metrics_of
 from .monte_carlo import Interrupted, Start, monte_carlo, replay
 from .noise import Channel, channels, draw, stream
 from .results import Mean, Result, ResultError
-from .study import Comparison, Picture, StudyResult, StudyTable, check_study_folder, study_page, write_study
+from .study import Comparison, Picture, StudyResult, StudyTable, check_study_folder, each, study_page, write_study
 
 __all__ = [
     "Channel",
@@ -28,6 +28,7 @@ __all__ = [
     "closed_loop",
     "connected",
     "draw",
+    "each",
     "judge",
     "metrics_of",
     "monte_carlo",

@@ -258,7 +258,12 @@ def monte_carlo(
 def _threads(work: Work, starts: Mapping[int, Any], jobs: int | None) -> Done:
     """Yield runs as they are done; the C releases the interpreter lock, so threads are enough."""
     _batch_of(work.text)
-    with ThreadPoolExecutor(jobs or _cores()) as pool:
+    count = jobs or cores()
+    if count == 1:
+        for run, start in starts.items():
+            yield run, run_one(work, run, start)
+        return
+    with ThreadPoolExecutor(count) as pool:
         futures = {pool.submit(run_one, work, run, start): run for run, start in starts.items()}
         try:
             for future in as_completed(futures):
@@ -267,7 +272,7 @@ def _threads(work: Work, starts: Mapping[int, Any], jobs: int | None) -> Done:
             pool.shutdown(cancel_futures=True)
 
 
-def _cores() -> int:
+def cores() -> int:
     """Return the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 

@@ -5,8 +5,11 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+import multiprocessing
 import platform
-from collections.abc import Callable, Mapping
+import signal
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -189,6 +192,34 @@ class StudyResult:
                 for table in tables
             },
         }
+
+
+def each(function: Callable[[Any], Any], items: Sequence[Any], processes: int) -> Iterator[Any]:
+    """Yield what a function gives for each item, in their order.
+
+    Parameters
+    ----------
+    function : callable
+        Of one item; it can be pickled, as the items and the answers.
+    items : sequence
+        What it is called with.
+    processes : int
+        In how many processes; with one it is called here.
+    """
+    if processes < 2:
+        yield from map(function, items)
+        return
+    context = multiprocessing.get_context("spawn")
+    pool = ProcessPoolExecutor(processes, mp_context=context, initializer=_leave_interrupts)
+    try:
+        yield from pool.map(function, items)
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _leave_interrupts() -> None:
+    """Leave an interrupt to the process that started this one."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def study_page(result: StudyResult) -> str:

@@ -16,7 +16,7 @@ from plantc.examples import meda2018
 from plantc.examples.meda2018 import ESTIMATORS, GAMMAS, NOISES, Case, Row, evaluate
 from plantc.examples.quadrotor_controllers import printed_gain
 from plantc.examples.quadrotor_ekf import sampled
-from plantc.simulation import channels, draw, judge, replay, study_page
+from plantc.simulation import channels, draw, each, judge, replay, study_page
 from plantc.symbolic.discretisation import transition
 
 SEED = 2018
@@ -352,6 +352,13 @@ def test_times_are_compared_as_ratios():
         "reproduces", "does not reproduce", "does not reproduce", "reproduces",
     ]  # fmt: skip
     assert all(item.measured for item in items)
+
+
+@pytest.mark.slow
+def test_other_processes_give_the_same_numbers():
+    some = [Case("EKF", 0.1), Case("KF", 0.05, "B")]
+    row = functools.partial(meda2018._row, runs=2, seed=SEED, on=None, jobs=1)
+    assert list(each(row, some, 2)) == [Row.of_result(evaluate(case, 2, SEED)) for case in some]
 
 
 @pytest.mark.slow

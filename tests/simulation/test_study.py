@@ -1,6 +1,8 @@
 """The page and the files of a study: nothing is missing, nothing is half-written, and what is not finite is said."""
 
 import json
+import math
+import os
 import re
 from html.parser import HTMLParser
 
@@ -13,6 +15,7 @@ from plantc.simulation import (
     StudyResult,
     StudyTable,
     check_study_folder,
+    each,
     study_page,
     write_study,
 )
@@ -160,6 +163,18 @@ def test_nothing_is_written_where_the_page_cannot_be_made(result, tmp_path):
     with pytest.raises(AttributeError):
         write_study(result, tmp_path)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.slow
+def test_items_are_done_in_processes_in_their_order():
+    items = [3.0, 1.0, 2.0, 5.0]
+    assert list(each(math.sqrt, items, 1)) == list(each(math.sqrt, items, 2)) == [math.sqrt(item) for item in items]
+    ask = ["__import__('os').getpid()"] * 6  # a function of a test module is not found by another process
+    here, there = (set(each(eval, ask, processes)) for processes in (1, 2))
+    assert here == {os.getpid()}
+    assert os.getpid() not in there
+    with pytest.raises(ValueError, match="math domain error"):
+        list(each(math.sqrt, [1.0, -1.0], 2))
 
 
 def test_a_table_is_asked_for_by_name_and_its_rows_are_as_long_as_its_head(result):
