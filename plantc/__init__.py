@@ -38,6 +38,9 @@ from .symbolic.controllers import (
 from .symbolic.design import Gain, ackermann, lqr, place, place_chains
 from .symbolic.estimators import extended_kalman_filter, kalman_filter, steady_state_kalman_filter
 from .symbolic.james_stein import james_stein_estimator
+from .symbolic.output_regulator import output_regulator
+from .symbolic.power_series import regulator_series
+from .symbolic.regulator_equations import francis
 
 __all__ = [
     "Attitude",
@@ -58,16 +61,19 @@ __all__ = [
     "emit",
     "export",
     "extended_kalman_filter",
+    "francis",
     "james_stein_estimator",
     "kalman_filter",
     "linearise",
     "low_pass",
     "lqr",
     "notch",
+    "output_regulator",
     "pid",
     "place",
     "place_chains",
     "rate_limiter",
+    "regulator_series",
     "saturation",
     "state_feedback",
     "state_space",
