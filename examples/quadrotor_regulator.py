@@ -9,8 +9,9 @@ from math import sqrt
 from typing import Any
 
 import numpy as np
-from plantc.symbolic import Block, Plant, cos, lqr, sin
+from plantc.symbolic import Block, Plant, cos, lqr, sin, vertcat
 from plantc.symbolic.analysis import linearise
+from plantc.symbolic.estimators import extended_kalman_filter
 from plantc.symbolic.exosystems import Exosystem, compose, polynomial
 from plantc.symbolic.output_regulator import output_regulator
 from plantc.symbolic.regulator_equations import francis
@@ -73,6 +74,8 @@ quadrotor.dynamics(
     }
 )
 
+quadrotor.sensor("pose", vertcat(x, y, z, roll, pitch, yaw), variance=0.01**2, doc="position and angles")
+
 T = 0.02
 sampled = quadrotor.discretise("euler", dt=T)
 
@@ -133,6 +136,18 @@ def high_gain_regulator(name: str, **options: Any) -> Block:
     return output_regulator(
         sampled, set_point, gain, francis(near, tracks(1)), dict.fromkeys(references, observer), name=name, **options
     )
+
+
+def estimated_regulator(degree: int, name: str) -> Block:
+    """Return the first regulator with an extended Kalman filter of the vehicle's own state in front (the paper's Remark 1)."""
+    believed = quadrotor.discretise("euler", dt=T).step_noise({state.signal.name: 1e-6 for state in quadrotor.states})
+    estimator = extended_kalman_filter(
+        believed,
+        initial_variance={state.signal.name: 1e-4 for state in believed.states},
+        around=set_point,
+        name="estimator",
+    )
+    return regulator(degree, name, estimator=estimator, tunable=False)
 
 
 quadrotor_regulator = regulator(6, "quadrotor_regulator", tunable=False)  # 28 states of the exosystem

@@ -279,6 +279,9 @@ def test_the_study(needs, tmp_path):
     assert counts["reproduces"] == 10 and counts["shown wrong"] == 5 and counts["does not reproduce"] == 1
     assert {row["degree"] for row in made.table("sweep")} == {2, 6} and len(made.table("sweep")) == 18
     assert made.table("compiled")[0]["end"] == ""
+    with_estimator = [row["y"] for row in made.table("estimator")]
+    assert with_estimator[0] == pytest.approx(0.0138139, rel=1e-3) and with_estimator == sorted(with_estimator)
+    assert with_estimator[-1] > 2 * with_estimator[0]  # what the estimate is wrong by
     page = write_study(made, tmp_path)[0].read_text()
     for word in ("Remark 2", "pole on a cart", "P_d"):
         assert word in page
