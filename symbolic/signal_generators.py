@@ -108,7 +108,8 @@ def signal_groups(exosystem: Exosystem) -> list[tuple[str, list[int]]]:
             return
         answer.setdefault(part.signals[0], []).extend(range(start, start + part.order))
 
-    visit(exosystem, 0)
+    if exosystem.order:
+        visit(exosystem, 0)
     return list(answer.items())
 
 

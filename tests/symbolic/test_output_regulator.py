@@ -1,5 +1,7 @@
 """The output regulator as one Block: specs/output_regulation.md, section 11, and what it refuses."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from plantc.reference import regulation as oracle
@@ -285,3 +287,27 @@ def test_numbers_that_are_folded(parts):
     other = float(view.call("step", view.init(), view.inputs("step", inputs), view.params()).outputs["force"])
     assert abs(other - found[0]) > 0.1
     assert again.source == laws[1].source
+
+
+@pytest.mark.parametrize("fault", ["sign of K", "P_d left out"])
+def test_a_planted_fault_is_seen(needs, parts, fault):
+    needs("gcc")
+    plant, gain, solution, _ = parts
+    law = regulator_feedback(plant, {}, gain, solution, tunable=False)
+    formula = law.oracle.formulas["step"]
+    fixed = dict(formula.fixed)
+    if fault == "sign of K":
+        fixed["gain"] = -fixed["gain"]
+    else:
+        fixed["input_map"] = np.where([j < 3 for _, j in formula.input_places], fixed["input_map"], 0.0)
+    law.oracle = replace(law.oracle, formulas={"step": replace(formula, fixed=fixed)})
+    assert not cross_check(law, "double", steps=20).passed
+
+
+def test_without_an_exosystem_it_is_state_feedback(parts):
+    plant, gain, _, _ = parts
+    both = np.vstack([gain.gain, np.zeros((1, 2))])  # nothing says that the wind is measured
+    law = regulator_feedback(plant, {}, both, francis(linearise(plant), compose([], dt=T)))
+    view = InterpretView(law)
+    answer = view.call("step", view.init(), view.inputs("step", {"position": 1.0, "speed": 0.0}), view.params())
+    assert float(answer.outputs["force"]) == pytest.approx(-gain.gain[0, 0])
