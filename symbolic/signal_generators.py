@@ -113,6 +113,18 @@ def signal_groups(exosystem: Exosystem) -> list[tuple[str, list[int]]]:
     return list(answer.items())
 
 
+def _observes(block: Block, exosystem: Exosystem) -> Block:
+    """Keep with an observer what it is an observer of."""
+    vars(block)["_exosystem"] = exosystem
+    return block
+
+
+def observed_exosystem(block: Block) -> Exosystem | None:
+    """Return the exosystem of a Block made by `kalman_exosystem` or `high_gain_exosystem`; None of any other Block."""
+    found = vars(block).get("_exosystem")
+    return found if isinstance(found, Exosystem) else None
+
+
 def _of_signal(owner: str, what: str, given: Any, signal: str, size: int) -> list[float]:
     """Return the numbers that are given for a signal."""
     value = given.get(signal) if isinstance(given, Mapping) else given
@@ -177,10 +189,10 @@ def kalman_exosystem(
                 f"{name}: {', '.join(options)} is for a filter with a covariance; leave it out, or steady=True"
             )
         text = doc or f"Kalman filter in steady state as the generator of {', '.join(exosystem.signals)}"
-        return steady_state_kalman_filter(plant, name=name, doc=text)
+        return _observes(steady_state_kalman_filter(plant, name=name, doc=text), exosystem)
     variances = {state.signal.name: float(initial_variance) for state in plant.states}
     text = doc or f"Kalman filter as the generator of {', '.join(exosystem.signals)}"
-    return kalman_filter(plant, initial_variance=variances, name=name, doc=text, **options)
+    return _observes(kalman_filter(plant, initial_variance=variances, name=name, doc=text, **options), exosystem)
 
 
 def bandwidth(dt: float, degree: int, process_variance: float, measurement_variance: float) -> float:
@@ -280,7 +292,7 @@ def high_gain_exosystem(
     coasting = S.copy()
     coasting[:, 0] += gains
     _finish_high_gain(block, [(signal, coasting, gains) for signal, _ in channels], ranges or {})
-    return block
+    return _observes(block, exosystem)
 
 
 def _channels(name: str, exosystem: Exosystem, coefficients: Sequence[float]) -> list[tuple[str, int]]:
