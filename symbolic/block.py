@@ -535,7 +535,9 @@ class Block:
         )
 
     def check(self) -> None:
-        """Raise a ModelError if generated names collide."""
+        """Raise a ModelError if generated names collide, or nothing can be called."""
+        if not self.entries:
+            raise ModelError(f"{self.name}: it has no entry, so nothing could be called; declare one with entry(...)")
         for what, signals in (("parameter", self.param_signals), ("memory field", self.memory_signals)):
             check_unique([(signal.name, f"the {what} {signal.name!r}") for signal in signals], self.name)
         for entry in self.entries.values():

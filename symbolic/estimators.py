@@ -655,7 +655,7 @@ class _Builder(Derivation):
             f"residual{tail(i)} = {name}{tail(i)} - {subtracted(text)}{wrapped}" for i, text in enumerate(expected)
         ]
         rows = Rows(m, residual, h, h_pattern, r, (False,) * m, h_names, r_names, e_names)
-        touched = self._touched({j for _, j in h_pattern})
+        moved = self._moved({j for _, j in h_pattern})
         body: list[Statement] = [
             self.evaluate(
                 f"measure_{name}", reads, outputs, comment, self._measure_origins(sensor, comment, h_pattern, r_pattern)
@@ -696,10 +696,10 @@ class _Builder(Derivation):
             When(
                 accepted,
                 (
-                    *self._correct(name, touched),
+                    *self._correct(name, moved),
                     Assign(Place("next", f"rejected_{name}"), 0.0, 1),
                     *self.form.hold(),
-                    self.judge(touched),
+                    self.judge(self._touched(moved)),
                 ),
                 (Restore(), CountUp(Place("next", f"rejected_{name}")), Raise(Status.GATED)),
                 "accepted?",
@@ -763,19 +763,25 @@ class _Builder(Derivation):
             [Origin("noise", f"R of {sensor.signal.name}", noises)] * len(r_pattern),
         ]
 
-    def _touched(self, read: set[int]) -> list[State]:
-        """Return the states that a reading may change: those correlated with the components of the error it reads."""
-        moved = {j for block in self.form.packing.parts if read & set(block) for j in block}
+    def _moved(self, read: set[int]) -> set[int]:
+        """Return the components of the error that a reading may change: those correlated with the ones it reads."""
+        return {j for block in self.form.packing.parts if read & set(block) for j in block}
+
+    def _touched(self, moved: set[int]) -> list[State]:
+        """Return the states of which a component may change."""
         return [state for state in self.plant.states if moved & set(range(state.error_at.start, state.error_at.stop))]
 
-    def _correct(self, sensor: str, touched: list[State]) -> list[Statement]:
+    def _correct(self, sensor: str, moved: set[int]) -> list[Statement]:
         """Apply the correction d to the states it touches, and turn P into the corrected body frame of an attitude."""
         plant = self.plant
-        d = ca.SX.sym("d", self.n)
+        touched = self._touched(moved)
+        given = ca.SX.sym("d", self.n)
+        # a kernel writes the corrections of its block only: the rest of a state that is touched stays
+        d = ca.vertcat(*[given[j] if j in moved else 0 for j in range(self.n)])
         targets, names = self.next_states(touched)
         symbols, places = self.state_reads()
         whole = plant.wrapped(plant.retract(plant.x, d))
-        moved = ca.vertcat(*[whole[state.at] for state in touched])
+        corrected = ca.vertcat(*[whole[state.at] for state in touched])
         body: list[Statement] = []
         gains = []
         for state in plant.states:
@@ -784,7 +790,7 @@ class _Builder(Derivation):
         pattern, values = _rowwise(ca.diagcat(*gains))
         reset = Place("local", "g")
         g_names = tuple(f"g_{i}_{j}" for i, j in pattern)
-        outputs = [(moved, targets, names)]
+        outputs = [(corrected, targets, names)]
         if plant.has_attitude:
             outputs.append((values, ((reset, len(pattern)),), g_names))
         comment = ["x = x + d"]
@@ -792,7 +798,7 @@ class _Builder(Derivation):
             comment = ["x = x + d, attitudes turned by exp(d); the error is now counted from there: P = G P G'"]
         reads: list[tuple[Sequence[ca.SX], Sequence[Any]]] = [
             (symbols, places),
-            ([d], [((Place("local", "delta"), self.n),)]),
+            ([given], [((Place("local", "delta"), self.n),)]),
         ]
         body.append(self.evaluate(f"correct_{sensor}", reads, outputs, comment))
         if plant.has_attitude:
