@@ -39,6 +39,9 @@ IMPLAUSIBLE = ("adversarial", "crafted")
 LARGEST_GROWTH = 10.0
 """A difference is excused up to this many times what one unit in the last place of memory and inputs causes."""
 
+LARGEST_AT_SWITCH = 1.0
+"""An implausible call whose neighbours are all refused may differ by this much: in sigma, or of its own magnitude."""
+
 LARGEST_SHARE_ILL_CONDITIONED = 0.05
 LEAST_SHARE_ACCEPTED = {True: 0.95, False: 0.5}
 """Of the nominal calls: where the block says what is nominal, and where its inputs are drawn from their whole ranges."""
@@ -790,10 +793,10 @@ class Lockstep:
     ) -> Excuse | None:
         """Return an excuse if a difference is no larger than rounding of the memory itself causes, times a factor."""
         explained = self._explained(probe, where, name, scales)
-        if math.isinf(explained) and probe.trace not in IMPLAUSIBLE:
-            return None  # that a call is nearly refused bounds nothing, and no plausible call may be
-        found = Excuse(difference, explained, probe, f"{where} {name}")
-        return found if difference <= LARGEST_GROWTH * explained else None
+        largest = LARGEST_GROWTH * explained
+        if math.isinf(explained):  # that a call is nearly refused bounds nothing, and no plausible call may be
+            largest = LARGEST_AT_SWITCH if probe.trace in IMPLAUSIBLE else 0.0
+        return Excuse(difference, explained, probe, f"{where} {name}") if difference <= largest else None
 
     def _explained(self, probe: Probe, where: str, name: str, scales: Mapping[str, Any]) -> float:
         """Return what one unit in the last place of memory and inputs causes; infinite where it has the call refused."""

@@ -578,7 +578,7 @@ def study_command(
     session = Session(as_json, debug)
 
     def body() -> NoReturn:
-        from .simulation import ClusterError, check_study_folder, write_study
+        from .simulation import ClusterError, ResultError, check_study_folder, write_study
 
         made = studies.find(name)
         check_study_folder(name, out, force=force)
@@ -590,7 +590,7 @@ def study_command(
 
             try:
                 found = made(runs, seed, on=on, progress=report)
-            except ClusterError as error:
+            except (ClusterError, ResultError) as error:
                 raise UsageError(str(error)) from None
         files = write_study(found, out, force=force)
         for item in found.comparisons:

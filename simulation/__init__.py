@@ -6,7 +6,17 @@ from .metrics import History, Judgement, judge, metrics_of
 from .monte_carlo import Interrupted, Start, monte_carlo, replay
 from .noise import Channel, channels, draw, stream
 from .results import Mean, Result, ResultError
-from .study import Comparison, Picture, StudyResult, StudyTable, check_study_folder, each, study_page, write_study
+from .study import (
+    Comparison,
+    Picture,
+    StudyResult,
+    StudyTable,
+    check_study_folder,
+    compared,
+    each,
+    study_page,
+    write_study,
+)
 
 __all__ = [
     "Channel",
@@ -26,6 +36,7 @@ __all__ = [
     "channels",
     "check_study_folder",
     "closed_loop",
+    "compared",
     "connected",
     "draw",
     "each",

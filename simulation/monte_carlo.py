@@ -121,12 +121,19 @@ def run_one(work: Work, run: int, start: Mapping[str, Array]) -> Judgement:
         Its index: with the seed it is the key of its noise.
     start : dict
         Parameter -> value, of this run's start.
+
+    Raises
+    ------
+    ResultError
+        If the C was written by another plantc than the one that is to run it.
     """
+    batch = _batch_of(work.text)
+    given = batch.params({**work.params, **start})
     try:
-        history = _history(work, run, start)
+        batch.init(given)
     except ValueError:  # the parameters were accepted without the start: it is the start that is out of range
         return Judgement("frozen", "BAD_PARAM", 0, 0)
-    return judge(history, work.limits)
+    return judge(_history(work, run, start), work.limits)
 
 
 def _history(work: Work, run: int, start: Mapping[str, Array]) -> History:
@@ -211,13 +218,13 @@ def monte_carlo(
     progress : callable or bool, optional
         Called with (runs done, runs asked); True shows a bar on standard error.
     file : Path or str, optional
-        Where the result is written, run by run. If it is there already it must be of the same settings, and only what is
-        missing is run.
+        Where the result is written, run by run. If it is there already it must be of the same settings, only what is
+        missing is run, and what it holds beyond the runs that are asked for stays in it.
 
     Returns
     -------
     Result
-        With every run.
+        With every run that was asked for.
 
     Raises
     ------
@@ -226,7 +233,7 @@ def monte_carlo(
     ValueError
         If `init` refuses the parameters.
     ResultError
-        If the file is of other settings.
+        If the file is of other settings, or a worker has another plantc.
     ClusterError
         If the cluster cannot be reached, or Dask is not installed.
     Interrupted
@@ -236,9 +243,9 @@ def monte_carlo(
         raise ModelError(f"{loop.block.name}: {runs} runs of {steps} steps are asked for; give at least one of each")
     begin = start or Start()
     work = _work(loop, steps, seed, std, covariance, params, limits)
-    result = _so_far(_header(loop, work, runs, begin), file)
+    result, stored = _so_far(_header(loop, work, runs, begin), file)
     starts = {run: _start_of(loop, begin, seed, run, work.params) for run in result.missing}
-    with _shown(loop.block, progress) as report, _Writer(result, file) as writer:
+    with _shown(loop.block, progress) as report, _Writer(result, stored, file) as writer:
         report(runs - len(starts), runs)
         if on is None:
             done = _threads(work, starts, jobs)
@@ -418,10 +425,10 @@ def _view_of(part: Block) -> NativeView:
     return NativeView(part)
 
 
-def _so_far(header: dict[str, Any], file: Path | str | None) -> Result:
-    """Return what a file has already, or nothing."""
+def _so_far(header: dict[str, Any], file: Path | str | None) -> tuple[Result, Result]:
+    """Return what is done of the runs that are asked for, and all that the file is to hold: it may have more."""
     if file is None or not Path(file).exists():
-        return Result(header)
+        return Result(header), Result(header)
     before = Result.load(file)
     differs = before.same_settings(header)
     if differs:
@@ -430,24 +437,25 @@ def _so_far(header: dict[str, Any], file: Path | str | None) -> Result:
             "file, or remove it"
         )
     kept = {run: item for run, item in before.judgements.items() if run < header["runs"]}
-    return Result(header, kept)
+    stored = Result({**header, "runs": max(header["runs"], before.runs)}, dict(before.judgements))
+    return Result(header, kept), stored
 
 
 class _Writer:
     """Adds runs to a result, and to its file as they come; at the end the file is written in the order of the runs."""
 
-    def __init__(self, result: Result, file: Path | str | None):
-        self.result, self.path = result, None if file is None else Path(file)
+    def __init__(self, result: Result, stored: Result, file: Path | str | None):
+        self.result, self.stored, self.path = result, stored, None if file is None else Path(file)
         self.stream: Any = None
 
     def __enter__(self) -> _Writer:
         if self.path is not None:
-            self.result.save(self.path)
+            self.stored.save(self.path)
             self.stream = self.path.open("a")
         return self
 
     def add(self, run: int, judgement: Judgement) -> None:
-        self.result.judgements[run] = judgement
+        self.result.judgements[run] = self.stored.judgements[run] = judgement
         if self.stream is not None:
             self.stream.write(row_line(run, judgement))
             self.stream.flush()
@@ -455,7 +463,7 @@ class _Writer:
     def __exit__(self, *_: object) -> None:
         if self.stream is not None and self.path is not None:
             self.stream.close()
-            self.result.save(self.path)
+            self.stored.save(self.path)
 
 
 @contextmanager

@@ -8,7 +8,7 @@ import math
 import multiprocessing
 import platform
 import signal
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -55,6 +55,38 @@ class Comparison:
     verdict: Verdict
     why: str = ""
     measured: bool = False
+
+
+NO_DATA = "The numbers that this would rest on are missing: no run, or none that was kept, gives them."
+
+
+def compared(
+    published: str,
+    ours: str,
+    holds: bool,
+    numbers: Iterable[float],
+    why: str = "",
+    *,
+    otherwise: Verdict = "does not reproduce",
+    measured: bool = False,
+) -> Comparison:
+    """Return a comparison with its verdict; without the numbers that it rests on it is "cannot be compared".
+
+    Parameters
+    ----------
+    published, ours, why, measured
+        See `Comparison`.
+    holds : bool
+        Whether what was printed came out.
+    numbers : iterable of float
+        What `holds` rests on; where there are none, or one is no number, nothing is said of the paper.
+    otherwise : str
+        The verdict where it does not hold.
+    """
+    rests_on = list(numbers)
+    if not rests_on or any(math.isnan(number) for number in rests_on):
+        return Comparison(published, ours, "cannot be compared", NO_DATA, measured)
+    return Comparison(published, ours, "reproduces" if holds else otherwise, why, measured)
 
 
 @dataclass(frozen=True)

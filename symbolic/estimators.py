@@ -655,7 +655,7 @@ class _Builder(Derivation):
             f"residual{tail(i)} = {name}{tail(i)} - {subtracted(text)}{wrapped}" for i, text in enumerate(expected)
         ]
         rows = Rows(m, residual, h, h_pattern, r, (False,) * m, h_names, r_names, e_names)
-        touched = self._touched({j for _, j in h_pattern})
+        moved = self._moved({j for _, j in h_pattern})
         body: list[Statement] = [
             self.evaluate(
                 f"measure_{name}", reads, outputs, comment, self._measure_origins(sensor, comment, h_pattern, r_pattern)
@@ -696,10 +696,10 @@ class _Builder(Derivation):
             When(
                 accepted,
                 (
-                    *self._correct(name, touched),
+                    *self._correct(name, moved),
                     Assign(Place("next", f"rejected_{name}"), 0.0, 1),
                     *self.form.hold(),
-                    self.judge(touched),
+                    self.judge(self._touched(moved)),
                 ),
                 (Restore(), CountUp(Place("next", f"rejected_{name}")), Raise(Status.GATED)),
                 "accepted?",
@@ -763,19 +763,25 @@ class _Builder(Derivation):
             [Origin("noise", f"R of {sensor.signal.name}", noises)] * len(r_pattern),
         ]
 
-    def _touched(self, read: set[int]) -> list[State]:
-        """Return the states that a reading may change: those correlated with the components of the error it reads."""
-        moved = {j for block in self.form.packing.parts if read & set(block) for j in block}
+    def _moved(self, read: set[int]) -> set[int]:
+        """Return the components of the error that a reading may change: those correlated with the ones it reads."""
+        return {j for block in self.form.packing.parts if read & set(block) for j in block}
+
+    def _touched(self, moved: set[int]) -> list[State]:
+        """Return the states of which a component may change."""
         return [state for state in self.plant.states if moved & set(range(state.error_at.start, state.error_at.stop))]
 
-    def _correct(self, sensor: str, touched: list[State]) -> list[Statement]:
+    def _correct(self, sensor: str, moved: set[int]) -> list[Statement]:
         """Apply the correction d to the states it touches, and turn P into the corrected body frame of an attitude."""
         plant = self.plant
-        d = ca.SX.sym("d", self.n)
+        touched = self._touched(moved)
+        given = ca.SX.sym("d", self.n)
+        # a kernel writes the corrections of its block only: the rest of a state that is touched stays
+        d = ca.vertcat(*[given[j] if j in moved else 0 for j in range(self.n)])
         targets, names = self.next_states(touched)
         symbols, places = self.state_reads()
         whole = plant.wrapped(plant.retract(plant.x, d))
-        moved = ca.vertcat(*[whole[state.at] for state in touched])
+        corrected = ca.vertcat(*[whole[state.at] for state in touched])
         body: list[Statement] = []
         gains = []
         for state in plant.states:
@@ -784,7 +790,7 @@ class _Builder(Derivation):
         pattern, values = _rowwise(ca.diagcat(*gains))
         reset = Place("local", "g")
         g_names = tuple(f"g_{i}_{j}" for i, j in pattern)
-        outputs = [(moved, targets, names)]
+        outputs = [(corrected, targets, names)]
         if plant.has_attitude:
             outputs.append((values, ((reset, len(pattern)),), g_names))
         comment = ["x = x + d"]
@@ -792,7 +798,7 @@ class _Builder(Derivation):
             comment = ["x = x + d, attitudes turned by exp(d); the error is now counted from there: P = G P G'"]
         reads: list[tuple[Sequence[ca.SX], Sequence[Any]]] = [
             (symbols, places),
-            ([d], [((Place("local", "delta"), self.n),)]),
+            ([given], [((Place("local", "delta"), self.n),)]),
         ]
         body.append(self.evaluate(f"correct_{sensor}", reads, outputs, comment))
         if plant.has_attitude:
@@ -805,51 +811,6 @@ class _Builder(Derivation):
         doc = "Multiply the covariance by a factor and leave the estimate: after a disturbance the model does not know."
         return Entry("inflate", (factor,), (), body, doc)
 
-    def _step(self, predict: Entry, updates: list[tuple[Sensor, Entry]]) -> Entry:
-        inputs = list(predict.inputs)
-        outputs: list[Signal] = []
-        arguments = tuple((signal.name, Place("in", signal.name)) for signal in predict.inputs)
-        body: list[Statement] = [Call("predict", arguments)]
-        for sensor, entry in updates:
-            name = sensor.signal.name
-            reading = entry.inputs[0]
-            flag = Signal(
-                f"has_{name}", kind=Kind.FLAG, low=(0.0,), high=(1.0,), doc=f"whether there is a reading of {name}"
-            )
-            inputs += [flag, reading]
-            group = Signal(name, kind=Kind.GROUP, members=entry.outputs, doc=f"what update_{name} reported, else zeros")
-            status = Signal(f"status_{name}", kind=Kind.STATUS, doc=f"status of {name} itself")
-            outputs += [status, group]
-            given = tuple((signal.name, Place("in", signal.name)) for signal in entry.inputs)
-            zeros: tuple[Statement, ...] = tuple(
-                Assign(Place("out", f"{name}.{signal.name}"), 0.0, signal.size) for signal in entry.outputs
-            )
-            report = Place("out", f"status_{name}")
-            skipped: tuple[Statement, ...] = (*zeros, Raise(Status.SKIPPED))
-            limit = Element(Place("param", "reject_limit"))
-            count = Element(Place("next", f"rejected_{name}"))
-            normal = Attempt((Call(entry.name, given, Place("out", name)),), report, (), skipped)
-            recovery = Attempt(
-                (
-                    Call("inflate", (("factor", Place("param", "inflation")),)),
-                    Call(entry.name, (*given, ("gate", 0.0)), Place("out", name)),
-                ),
-                report,
-                (Raise(Status.RECOVERED),),
-                skipped,
-            )
-            due = AllOf((Compare(limit, ">", 0.0), Compare(count, ">=", limit)))
-            body.append(
-                When(
-                    IsSet(Element(Place("in", f"has_{name}"))),
-                    (When(due, (recovery,), (normal,), f"{name} gated too often in a row: trust it once"),),
-                    (*zeros, Assign(report, 0.0, 1)),
-                    name,
-                )
-            )
-        doc = "Predict, then every sensor that has a reading, in this order; a refused sensor is skipped."
-        return Entry("step", tuple(inputs), tuple(outputs), tuple(body), doc)
-
     def build(self) -> Block:
         """Derive and assemble."""
         plant, block = self.plant, self.block
@@ -860,7 +821,7 @@ class _Builder(Derivation):
             self._init(),
             predict,
             *[entry for _, entry in updates],
-            self._step(predict, updates),
+            step_entry(predict, [(sensor.signal.name, entry) for sensor, entry in updates]),
             self._inflate(),
         ]
         block.entries = {entry.name: entry for entry in entries}
@@ -934,6 +895,52 @@ class _Builder(Derivation):
                 )
             )
         return checks
+
+
+def step_entry(predict: Entry, updates: Sequence[tuple[str, Entry]]) -> Entry:
+    """Return `step`: `predict`, then the update of each (sensor, its entry) that has a reading, a refused one skipped."""
+    inputs = list(predict.inputs)
+    outputs: list[Signal] = []
+    arguments = tuple((signal.name, Place("in", signal.name)) for signal in predict.inputs)
+    body: list[Statement] = [Call("predict", arguments)]
+    for name, entry in updates:
+        reading = entry.inputs[0]
+        flag = Signal(
+            f"has_{name}", kind=Kind.FLAG, low=(0.0,), high=(1.0,), doc=f"whether there is a reading of {name}"
+        )
+        inputs += [flag, reading]
+        group = Signal(name, kind=Kind.GROUP, members=entry.outputs, doc=f"what update_{name} reported, else zeros")
+        status = Signal(f"status_{name}", kind=Kind.STATUS, doc=f"status of {name} itself")
+        outputs += [status, group]
+        given = tuple((signal.name, Place("in", signal.name)) for signal in entry.inputs)
+        zeros: tuple[Statement, ...] = tuple(
+            Assign(Place("out", f"{name}.{signal.name}"), 0.0, signal.size) for signal in entry.outputs
+        )
+        report = Place("out", f"status_{name}")
+        skipped: tuple[Statement, ...] = (*zeros, Raise(Status.SKIPPED))
+        limit = Element(Place("param", "reject_limit"))
+        count = Element(Place("next", f"rejected_{name}"))
+        normal = Attempt((Call(entry.name, given, Place("out", name)),), report, (), skipped)
+        recovery = Attempt(
+            (
+                Call("inflate", (("factor", Place("param", "inflation")),)),
+                Call(entry.name, (*given, ("gate", 0.0)), Place("out", name)),
+            ),
+            report,
+            (Raise(Status.RECOVERED),),
+            skipped,
+        )
+        due = AllOf((Compare(limit, ">", 0.0), Compare(count, ">=", limit)))
+        body.append(
+            When(
+                IsSet(Element(Place("in", f"has_{name}"))),
+                (When(due, (recovery,), (normal,), f"{name} gated too often in a row: trust it once"),),
+                (*zeros, Assign(report, 0.0, 1)),
+                name,
+            )
+        )
+    doc = "Predict, then every sensor that has a reading, in this order; a refused sensor is skipped."
+    return Entry("step", tuple(inputs), tuple(outputs), tuple(body), doc)
 
 
 def _ours(evaluate: Evaluate, local: str, pattern: Pattern, shape: tuple[int, int]) -> Any:

@@ -123,7 +123,7 @@ def output_regulator(
         joined |= wires("feedback", "estimator", acting, initial={item: where.inputs[item] for item in acting})
     parts["feedback"] = feedback
     text = doc or f'output regulator of the plant "{plant.name}": follows {", ".join(nominal.model.outputs)}'
-    return connect(parts, joined, name, doc=text)
+    return connect(parts, joined, name, settled=True, doc=text)
 
 
 def _generators(

@@ -311,3 +311,44 @@ def test_a_block_with_nothing_to_remember():
     raw = square.input("raw", range=(-10, 10))
     square.entry("step", inputs=[raw], outputs={"value": raw * raw})
     assert cross_check(square, steps=20).passed
+
+
+class Answering:
+    """A view that gives one number for another wherever a call is accepted."""
+
+    def __init__(self, inner, number):
+        self.inner, self.number = inner, number
+
+    def __getattr__(self, name):
+        return getattr(self.inner, name)
+
+    def call(self, entry, memory, inputs, params):
+        answer = self.inner.call(entry, memory, inputs, params)
+        if entry != "step" or answer.status < 0:
+            return answer
+        outputs = answer.outputs.copy()
+        outputs["plain"] = self.number
+        return dataclasses.replace(answer, outputs=outputs)
+
+
+@pytest.mark.parametrize("trace", ["nominal", *crosscheck.IMPLAUSIBLE])
+@pytest.mark.parametrize("number", [np.nan, -555.0])
+def test_where_every_neighbour_is_refused_a_wrong_number_is_still_wrong(trace, number):
+    # at the very point every rounding away has the call refused: that excuses a last bit, not a NaN
+    block = Block("cancelling")
+    x = block.input("x", size=40, range=(-100, 100))
+    weights = [1 + 0.3717 * k for k in range(20)]
+    cancelled = 1e18 * sum(weights[k] * (x[2 * k] - x[2 * k + 1]) for k in range(20))
+    outputs, ranges = {"cancelled": cancelled, "plain": x[0] + 1}, {"cancelled": (-1, 1), "plain": (-1e3, 1e3)}
+    block.entry("step", inputs=[x], outputs=outputs, output_ranges=ranges)
+    views = make_views(block, "double")
+    params = views.native.params()
+    memory, inputs = views.native.init(params), views.native.inputs("step", {"x": np.full(40, 0.7)})
+    probe = crosscheck.Probe(trace, 0, "step", memory, inputs, params)
+    whole = crosscheck.Lockstep(block, "double", views)
+    whole.compare(probe)
+    assert whole.agreement("agreement").passed
+    assert np.isinf(whole._explained(probe, "outputs", "plain", {}))
+    broken = crosscheck.Lockstep(block, "double", dataclasses.replace(views, native=Answering(views.native, number)))
+    broken.compare(probe)
+    assert not broken.agreement("agreement").passed

@@ -9,6 +9,7 @@ from plantc.examples.regulation_runs import (
     OUTPUTS,
     TIMES,
     WANTED,
+    Flight,
     aim,
     cart_pole_errors,
     disturbance_cases,
@@ -256,6 +257,21 @@ def test_the_page_of_the_documentation(found, checkout):
         numbers = (*errors[:2], bandwidth(0.02, degree, D, 0.01))
         rows.append(f"| Kalman filter, degree {degree} | {D:g} | {' | '.join(f'{item:.3g}' for item in numbers)} |")
     assert page.strip().splitlines()[2:] == rows
+
+
+def test_without_data_nothing_is_said_of_the_paper():
+    """Every flight is lost, that of the Kalman filter too, and no generator says a number."""
+    lost = study.Run(Flight(np.zeros((7, 12)), np.zeros((7, 4)), 0.14), np.full(WANTED.shape, np.nan))
+
+    class Lost(dict):
+        def __missing__(self, case):
+            return lost
+
+    items = [*study._of_kalman(Lost(), SEEDS), *study._of_high_gain(Lost(), 0)]
+    told = {item.published: item.verdict for item in items}
+    lost_ones = told.pop("Figs. 17 to 23: with high-gain observers the linear plant is regulated, in noise too")
+    assert lost_ones == "does not reproduce"  # of counts, which are there
+    assert set(told.values()) == {"cannot be compared"} and len(told) == 8
 
 
 @pytest.mark.slow

@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -148,6 +149,32 @@ def test_more_runs_may_be_asked_for_later_and_a_line_cut_off_is_run_again(tank, 
     assert Result.load(path).missing == [4]
     monte_carlo(tank, runs=8, steps=10, file=path)
     assert path.read_bytes() == monte_carlo(tank, runs=8, steps=10).save(tmp_path / "at_once").read_bytes()
+
+
+def test_fewer_runs_asked_for_later_take_nothing_from_the_file(tank, tmp_path):
+    path = tmp_path / "many"
+    whole = monte_carlo(tank, runs=8, steps=10, file=path)
+    before = path.read_bytes()
+    part = monte_carlo(tank, runs=3, steps=10, file=path)
+    assert path.read_bytes() == before
+    assert (part.runs, sorted(part.judgements)) == (3, [0, 1, 2])
+    assert all(part.judgements[run] == whole.judgements[run] for run in range(3))
+    # also where one of the few was missing
+    lines = path.read_text().splitlines(keepends=True)
+    path.write_text("".join(lines[:2] + lines[3:]))
+    monte_carlo(tank, runs=3, steps=10, file=path)
+    assert path.read_bytes() == before
+
+
+def test_a_worker_of_another_version_says_so_and_freezes_no_run(tank):
+    module = sys.modules["plantc.simulation.monte_carlo"]
+    work = module._work(tank, 5, 0, None, None, None, None)
+    start = module._start_of(tank, Start(), 0, 0)
+    assert module.run_one(work, 0, start).outcome == "kept"
+    sources = {**work.text.sources, "another.h": ""}
+    other = replace(work, text=replace(work.text, version="0.0.1", sources=sources))
+    with pytest.raises(ResultError, match=r"written by plantc 0\.0\.1, this worker has .*; install the same version"):
+        module.run_one(other, 0, start)
 
 
 def test_a_file_of_other_settings_is_refused(tank, tmp_path):

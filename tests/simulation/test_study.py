@@ -15,6 +15,7 @@ from plantc.simulation import (
     StudyResult,
     StudyTable,
     check_study_folder,
+    compared,
     each,
     study_page,
     write_study,
@@ -191,3 +192,12 @@ def test_a_table_is_asked_for_by_name_and_its_rows_are_as_long_as_its_head(resul
 )  # fmt: skip
 def test_a_cell_is_written_for_people(value, text):
     assert cell_text(value) == text
+
+
+def test_a_verdict_needs_numbers():
+    def verdict(holds, numbers):
+        return compared("as printed", "ours", holds, numbers, "a cause", otherwise="shown wrong").verdict
+
+    assert [verdict(True, [1.0]), verdict(False, [1.0])] == ["reproduces", "shown wrong"]
+    for holds in (True, False):
+        assert verdict(holds, [1.0, float("nan")]) == verdict(holds, []) == "cannot be compared"

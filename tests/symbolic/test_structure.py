@@ -1,5 +1,7 @@
 """What of a covariance is zero by structure: found, never stored, and seen by the oracle where it was found wrongly."""
 
+import re
+
 import numpy as np
 import pytest
 from plantc.reference.model import CorrelatedError, packed, unpacked
@@ -163,3 +165,22 @@ def test_alone_and_uneven():
     block = kalman_filter(plant, initial_variance={"a": 1, "b": 1, "c": 1})
     assert packing_of(block, "covariance").blocks == ((0,), (1,), (2, 3))
     assert cross_check(block, "double", steps=60).passed
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("read", ["one", "both"])
+def test_elements_of_one_state_may_lie_in_different_blocks(form, read):
+    # of a state that a reading touches, what lies in other blocks stays: its correction was never computed
+    plant = Plant("split", dt=T)
+    a = plant.state("a", size=2, range=(-1e3, 1e3))
+    plant.dynamics({a: vertcat(0.9 * a[0], 0.8 * a[1])})
+    plant.step_noise({"a": [1e-3, 2e-3]})
+    for k in range(1 if read == "one" else 2):
+        plant.sensor(f"y{k}", a[k], variance=0.01)
+    block = filter_of(plant, form=form)
+    bodies = re.findall(r"update_y\d_core\([^;]*?\n\{\n(.*?)\n\}\n", emit(block).source, re.DOTALL)
+    assert len(bodies) == (1 if read == "one" else 2)
+    for k, body in enumerate(bodies):
+        used = set(re.findall(r"\bdelta\[(\d)\]", body.replace("delta[2];", "")))
+        assert used == {str(k)}
+    assert cross_check(block, steps=30).passed  # compiled with warnings as errors, by gcc one of what was never written
