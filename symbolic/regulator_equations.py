@@ -34,6 +34,12 @@ LARGEST_DENSE = 2000
 NEAR = 0.02
 """A transmission zero within this share of the rate of an exosystem's mode (at least 1 rad/s) is a near-failure."""
 
+NEAR_RANK = 1.0e-3
+"""The same of the least singular value of the pencil, where the plant is not square and has no such distance."""
+
+DUST = 1.0e-13
+"""Elements of Pi and Gamma that move the equations by less than this share of their largest term are zero."""
+
 
 class RegulatorError(ModelError):
     """Regulator equations without a solution, or a gain that does not stabilise: the sentence has the numbers."""
@@ -327,7 +333,8 @@ class RegulatorSolution:
         Smallest over largest singular value of the matrix of the equations; with the triangular solver of the pencils on
         its diagonal.
     residual : float
-        norm(M z - rhs) / max(1, norm(rhs)).
+        norm(M z - rhs) / norm(rhs), the largest over the parts of the exosystem that have nothing to do with each other; where a
+        part has full rank, and so a solution, / max(1, norm(rhs)). What is below 1e-13 of the whole right-hand side is of that.
     modes : tuple of ModeSolvability
         For each distinct eigenvalue of the exosystem.
     warnings : tuple of str
@@ -356,9 +363,20 @@ class RegulatorSolution:
     disturbance: Array = field(repr=False)
 
     def rounded(self) -> dict[str, Array]:
-        """Return Pi and Gamma rounded to 9 digits, as they go into `design.json`."""
-        pairs = (("state_map", self.state_map), ("input_map", self.input_map))
-        return {name: _rounded(np.where(np.abs(item) < 1e-13, 0.0, item)) for name, item in pairs}
+        """Return Pi and Gamma rounded to 9 digits, as they go into `design.json`, without what is but rounding.
+
+        What that is depends on no unit: it is judged by what an element moves in the equations of its part of the exosystem.
+        """
+        view, S, n = self.model, self.exosystem.matrix, len(self.state_map)
+        pencil = np.abs(np.block([[view.A, view.B], [view.C, view.D]]))
+        z, right = np.vstack([self.state_map, self.input_map]), np.abs(np.vstack([self.disturbance, self.reference]))
+        for part in parts_of(S):
+            moved = np.linalg.norm(pencil, axis=0)
+            moved[:n] += float(np.max(np.abs(S[np.ix_(part, part)]), initial=0.0))
+            terms = moved[:, None] * np.abs(z[:, part])
+            largest = max(float(np.max(item, initial=0.0)) for item in (terms, right[:, part]))
+            z[:, part] = np.where(terms < DUST * largest, 0.0, z[:, part])
+        return {"state_map": _rounded(z[:n]), "input_map": _rounded(z[n:])}
 
     def source(self) -> str:
         """Return a hash of what was asked for: same question, same hash, on any machine."""
@@ -382,9 +400,13 @@ class RegulatorSolution:
         view, S = self.model, self.exosystem.matrix
         upper = np.abs(Pi) @ np.abs(S) + np.abs(view.A) @ np.abs(Pi) + np.abs(view.B) @ np.abs(Gamma)
         lower = np.abs(view.C) @ np.abs(Pi) + np.abs(view.D) @ np.abs(Gamma)
-        left = _residuals(view, S, self.reference, self.disturbance, Pi, Gamma)
-        size = float(np.linalg.norm(np.vstack([upper, lower])))
-        share = float(np.linalg.norm(np.vstack(left))) / max(size, np.finfo(float).tiny)
+        left = np.vstack(_residuals(view, S, self.reference, self.disturbance, Pi, Gamma))
+        whole, right = np.vstack([upper, lower]), np.vstack([self.disturbance, self.reference])
+        shares = [0.0]
+        for part in parts_of(S):  # each by itself: a large disturbance hides nothing of a small reference
+            size = float(np.linalg.norm(np.maximum(whole[:, part], np.abs(right[:, part]))))
+            shares.append(float(np.linalg.norm(left[:, part])) / size if size else 0.0)
+        share = float(np.max(shares))  # NaN where one is
         return {"residual of the regulator equations, of their terms": (share, 2e-8)}
 
 
@@ -437,6 +459,8 @@ def francis(model: Any, exosystem: Exosystem, *, solver: str | None = None) -> R
             f"at every eigenvalue ({_worst_text(modes)}); take solver='kronecker'"
         )
     Pi, Gamma, rank, ratios = np.zeros((n, exosystem.order)), np.zeros((p, exosystem.order)), 0, []
+    residuals, right = [0.0], np.vstack([P, Q])
+    largest = float(np.linalg.norm(right))
     factors: dict[complex, Any] = {}
     for part in parts_of(S):
         block = S[np.ix_(part, part)]
@@ -447,9 +471,14 @@ def francis(model: Any, exosystem: Exosystem, *, solver: str | None = None) -> R
         Pi[:, part], Gamma[:, part] = z[:n], z[n:]
         rank += found
         ratios.append(sizes)
-    rows = (n + len(view.C)) * exosystem.order
-    left = np.vstack(_residuals(view, S, Q, P, Pi, Gamma))
-    residual = float(np.linalg.norm(left)) / max(1.0, float(np.linalg.norm(np.vstack([P, Q]))))
+        left = float(np.linalg.norm(np.vstack(_residuals(view, block, Q[:, part], P[:, part], z[:n], z[n:]))))
+        asked = float(np.linalg.norm(right[:, part]))
+        if found == len(right) * len(part):
+            asked = max(1.0, asked)
+        elif left < DUST * largest:  # a right-hand side that is rounding next to the others is none
+            asked = largest
+        residuals.append(left / asked if asked else left)
+    rows, residual = (n + len(view.C)) * exosystem.order, float(np.max(residuals))  # NaN where one is
     if not residual < SOLVABLE:
         raise RegulatorError(_unsolvable(view, modes, rank, rows, residual))
     least = min((item[0] for item in ratios), default=0.0)
@@ -540,6 +569,13 @@ def _worst_text(modes: Sequence[ModeSolvability]) -> str:
 
 
 def _unsolvable(view: LinearModel, modes: Sequence[ModeSolvability], rank: int, rows: int, residual: float) -> str:
+    if all(mode.rank == mode.needed for mode in modes):  # a solution, which is lost in rounding
+        least = min((mode.sigma for mode in modes), default=math.nan)
+        return (
+            f"{view.name}: the regulator equations have a solution that is too large to be computed: the exosystem is so near "
+            f"a transmission zero of the plant (least singular value {least:.3g}, {_worst_text(modes)}) that rounding leaves a "
+            f"relative residual of {residual:.8g}; regulate another output, or take another exosystem"
+        )
     few = view.B.shape[1] < len(view.C)
     cause = (
         f"{view.B.shape[1]} input(s) act on {len(view.C)} regulated output(s)"
@@ -581,6 +617,11 @@ def _warnings(
             said.append(
                 f"a transmission zero is {mode.distance:.3g} from the eigenvalue {_number(mode.eigenvalue)} (least singular "
                 f"value {mode.sigma:.3g}): gains grow like the inverse of that distance"
+            )
+        elif math.isnan(far) and mode.sigma / (view.dt or 1.0) < NEAR_RANK * max(1.0, abs(rate)):
+            said.append(
+                f"at the eigenvalue {_number(mode.eigenvalue)} the least singular value is {mode.sigma:.3g}: the rank is nearly "
+                "lost, and gains grow like the inverse of that"
             )
     return tuple(said)
 

@@ -449,3 +449,55 @@ def test_a_wrong_solution_is_seen_in_the_record():
     assert any(value > limit for value, limit in found.properties(wrong).values())
     assert found.source() == francis(quadrotor().sampled(T, "euler"), chains(6).sampled(T, "euler")).source()
     assert found.source() != francis(quadrotor().sampled(T), chains(6).sampled(T, "euler")).source()
+
+
+# -- scales -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("size", [1e-8, 1e-10, 1e-14])
+def test_a_small_reference_is_no_solution(size):
+    with pytest.raises(RegulatorError, match=r"rank of the equations 2 of 3, relative residual 0\.70710678"):
+        francis(linear_model(*ZERO), exosystem([[0.0]], [[size]], ["y_0"]))
+
+
+def test_a_large_disturbance_hides_no_reference_that_cannot_be_followed(monkeypatch):
+    plant = linear_model(*ZERO, E=[[0], [2e9]])
+    signals = compose([constant("y_0"), constant("d_0")])
+    with pytest.raises(RegulatorError, match=r"at 0 the rank is 2 of 3; .* relative residual 0\.70710678"):
+        francis(plant, signals)
+    # the planted fault: the properties of design.json see it, too
+    monkeypatch.setattr(regulator_equations, "SOLVABLE", np.inf)
+    ((share, limit),) = francis(plant, signals).properties().values()
+    assert share > 0.1 > limit
+    # and a right-hand side that is rounding is none
+    monkeypatch.undo()
+    assert francis(plant, exosystem(np.zeros((2, 2)), [[1e-8, 0.0], [0.0, 1.0]], ["y_0", "d_0"])).residual < 1e-9
+
+
+@pytest.mark.parametrize("delta", [1e-9, 1e-12])
+def test_a_solution_lost_in_rounding_is_called_that(delta):
+    with pytest.raises(
+        RegulatorError, match="have a solution that is too large to be computed: .* the rank is 4 of 4"
+    ) as found:
+        francis(linear_model(*ZEROS), harmonic("y_0", 1 + delta))
+    assert "a transmission zero of the plant is an eigenvalue" not in str(found.value)
+
+
+def test_a_plant_that_is_not_square_is_warned_of_by_its_least_singular_value():
+    A, _, C = ZEROS
+    for delta, says in ((0.1, False), (1e-3, True)):
+        found = francis(linear_model(A, [[0, 0], [0, 0], [1, 2]], C), harmonic("y_0", 1 + delta))
+        assert any("the rank is nearly lost" in item for item in found.warnings) == says
+
+
+@pytest.mark.parametrize("unit", [1.0, 1e-15, 1e12])
+def test_what_is_rounding_depends_on_no_unit(unit):
+    """A disturbance counted in photons; the same maps, whatever is counted."""
+    plant = linear_model([[0, 1], [0, -0.3]], [[0], [1]], [[1, 0]], E=[[0], [unit]]).sampled(T, "euler")
+    found = francis(plant, compose([polynomial("y_0", 2), polynomial("d_0", 1)]).sampled(T)).rounded()
+    np.testing.assert_allclose(found["input_map"][0, 3:] / unit, [-1.0, 0.0], rtol=1e-8, atol=0)
+    np.testing.assert_allclose(found["state_map"], [[1, 0, 0, 0, 0], [0, 1, T / 2, 0, 0]], rtol=1e-8, atol=0)
+    # another unit of the input, of which Gamma is small
+    thrust = linear_model([[0, 1], [0, -0.3]], [[0], [1e14]], [[1, 0]]).sampled(T, "euler")
+    maps = francis(thrust, polynomial("y_0", 2).sampled(T), solver="schur").rounded()["input_map"]
+    np.testing.assert_allclose(maps * 1e14, [[0, 0.3, 1 + 0.3 * T / 2]], rtol=1e-8, atol=0)
