@@ -82,7 +82,7 @@ def regulators() -> dict[str, Any]:
     """Return kind of generator -> bytes of text, and the most instructions of a step, over 60 with all readings.
 
     The quadrotor, references of degree 6 (28 states; 8 for the high-gain observer, of degree 1); each signal has an observer of
-    its own, all four the same Block, and K, Pi and Gamma are folded into the C.
+    its own, all four the same Block, unless they are read together; and K, Pi and Gamma are folded into the C.
     """
     from plantc.codegen import TargetView
     from plantc.codegen.emulator import Call
@@ -99,7 +99,14 @@ def regulators() -> dict[str, Any]:
     gain = lqr(linear, Q=100 * np.ones(12), R=1)
     chain, straight = (polynomial("reading", degree).sampled(DT, "euler") for degree in (6, 1))
     noise: dict[str, Any] = {"process_variance": 1e-12, "measurement_variance": 0.01}
+    together = kalman_exosystem(
+        compose([polynomial(item, 6) for item in outputs]).sampled(DT, "euler"),
+        name="generator",
+        together=True,
+        **noise,
+    )
     kinds = {
+        "Kalman filter, read together": (6, together),
         "Kalman filter": (6, kalman_exosystem(chain, name="generator", **noise)),
         "Kalman filter in steady state": (6, kalman_exosystem(chain, name="generator", steady=True, **noise)),
         "high-gain observer": (1, high_gain_exosystem(straight, coefficients=(2, 1), epsilon=0.1, name="generator")),
@@ -108,8 +115,9 @@ def regulators() -> dict[str, Any]:
     for kind, (degree, one) in kinds.items():
         tracks = compose([polynomial(name, degree) for name in outputs]).sampled(DT, "euler")
         solution = francis(linear, tracks)
+        generator = one if one is together else dict.fromkeys(outputs, one)
         block = output_regulator(
-            plant, point, gain, solution, dict.fromkeys(outputs, one), saturate=True, tunable=False, name="regulator"
+            plant, point, gain, solution, generator, saturate=True, tunable=False, name="regulator"
         )
         view = TargetView(block, "float", TARGETS["cortex-m4"])
         native, rng, calls = NativeView(block, "float"), np.random.default_rng(0), []
@@ -120,7 +128,7 @@ def regulators() -> dict[str, Any]:
             for signal in block.entries["step"].inputs:
                 flag = signal.kind.value == "flag"
                 given[signal.name] = (
-                    True if flag else 0.1 * rng.normal() if signal.name.startswith("generator") else 0.0
+                    True if flag else 0.1 * rng.normal(size=signal.size) if signal.name.startswith("generator") else 0.0
                 )
             inputs = native.inputs("step", given)
             calls.append(Call("step", inputs, memory, params))

@@ -19,7 +19,7 @@ from ..symbolic.block import Block
 from ..symbolic.errors import ModelError
 from ..symbolic.signals import Kind, Signal
 from .cache import Kept, keep, kept, key_of
-from .compiler import contraction_flag, find_compiler
+from .compiler import CompilerError, contraction_flag, find_compiler
 from .coverage import measure_coverage
 from .crosscheck import CrossCheck, cross_check, make_probes, make_views
 from .emit import CText, emit, generator_version, templates
@@ -403,8 +403,16 @@ def check_folder(
     missing = [file for file in manifest["files"] if file not in present]
     native = NativeView(block, precision, contract=contract, mathematics=mathematics)
     header, source = present.get(f"src/{name}.h"), present.get(f"src/{name}.c")
+    refused = []
     if header is not None and source is not None and manifest["model"] == block.model_hash():
-        native = NativeView(block, precision, text=text_in(folder, manifest), contract=contract)
+        lying = text_in(folder, manifest)
+        try:
+            native = NativeView(block, precision, text=lying, contract=contract)
+        except CompilerError as error:
+            if (lying.header, lying.source) == (native.text.header, native.text.source):
+                raise
+            said = str(error).split(": ", 1)[-1].split("\n")[0]
+            refused = [CheckResult("the C that lies there compiles", False, note=f"it was changed by hand: {said}")]
     views = make_views(block, precision, native)
     check = cross_check(
         block, precision, views=views, steps=steps, progress=lambda done, total: report("cross-check", done, total)
@@ -412,6 +420,7 @@ def check_folder(
     if set(targets) - {"host"}:
         report("targets", 0, 1)
         check.results += measure_targets(block, options, native.text, check).checks
+    check.results += refused
     expected = build_files(block, options, check.results)
     changed = [file for file, text in expected.items() if file in present and present[file] != text]
     stored = folder / "manifest.json"

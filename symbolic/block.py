@@ -500,11 +500,11 @@ class Block:
         """Return the condition that the inputs of an entry are within their ranges.
 
         Inputs inside a nested group belong to a Call, and are judged by the entry called; those that the body judges itself,
-        such as a reading behind its flag, are left to it.
+        such as a reading behind its flag, are left to it, and those that are settled to whoever calls it.
         """
         signals = [signal for signal in entry.inputs if signal.kind is Kind.REAL]
         signals += [signal for signal, _ in entry.hidden if signal.kind is Kind.REAL]
-        hidden = {signal.name for signal, _ in entry.hidden}
+        hidden = {signal.name for signal, _ in entry.hidden} | set(entry.settled)
         passed_on = _arguments_of_calls(entry.body) | _judged_within(entry.body)
         return AllOf(
             tuple(
@@ -535,7 +535,9 @@ class Block:
         )
 
     def check(self) -> None:
-        """Raise a ModelError if generated names collide."""
+        """Raise a ModelError if generated names collide, or nothing can be called."""
+        if not self.entries:
+            raise ModelError(f"{self.name}: it has no entry, so nothing could be called; declare one with entry(...)")
         for what, signals in (("parameter", self.param_signals), ("memory field", self.memory_signals)):
             check_unique([(signal.name, f"the {what} {signal.name!r}") for signal in signals], self.name)
         for entry in self.entries.values():

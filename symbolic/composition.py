@@ -87,7 +87,12 @@ def _called(item: Any) -> str:
 
 
 def connect(
-    blocks: Mapping[str, Block] | Sequence[Block], wires: Mapping[str, str | Delay], name: str, *, doc: str = ""
+    blocks: Mapping[str, Block] | Sequence[Block],
+    wires: Mapping[str, str | Delay],
+    name: str,
+    *,
+    settled: bool = False,
+    doc: str = "",
 ) -> Block:
     """Return one Block made of parts.
 
@@ -100,6 +105,9 @@ def connect(
         `step`, or a field of its memory after it.
     name : str
         Name of the composition.
+    settled : bool
+        Whether an input is not judged again that is wired, without delay, to a field of another part's memory whose range is
+        within its own: that part has judged the field in the same call, and has refused the whole were it outside.
     doc : str
         Its meaning.
 
@@ -121,7 +129,10 @@ def connect(
         raise ModelError(
             f"{name}: two parts have the same name; give them names: connect({{'first': ..., 'second': ...}}, ...)"
         )
-    return _Composer(parts, dict(wires), name, doc).build()
+    composer = _Composer(parts, dict(wires), name, doc)
+    if settled:
+        composer.settle()
+    return composer.build()
 
 
 class _Composer:
@@ -180,6 +191,20 @@ class _Composer:
             )
         if not same_unit(target.unit, source.unit):
             raise ModelError(f"{text} joins [{source.unit}] to [{target.unit}]; convert the unit, or mend the wire")
+
+    def settle(self) -> None:
+        """Leave judged once what another part has judged as its memory."""
+        judged: dict[str, list[str]] = {}
+        for (part, name), (start, wire) in self.wires.items():
+            target, (source, place) = self._input(part, name), self._output(*start)
+            ends = all(low <= own for low, own in zip(target.low, source.low, strict=True))
+            ends = ends and all(high >= own for high, own in zip(target.high, source.high, strict=True))
+            if wire is None and place.space == "next" and target.kind is Kind.REAL and ends:
+                judged.setdefault(part, []).append(name)
+        made: dict[tuple[int, tuple[str, ...]], Block] = {}  # parts that are the very same Block stay so
+        for part, names in judged.items():
+            inner, key = self.parts[part], (id(self.parts[part]), tuple(names))
+            self.parts[part] = made.setdefault(key, _settled(inner, tuple(names)))
 
     def order(self) -> list[str]:
         """Return the parts in an order in which every undelayed source comes first."""
@@ -331,6 +356,16 @@ class _Composer:
             return answer
 
         return Scenario(calls, memory, scales)
+
+
+def _settled(block: Block, names: tuple[str, ...]) -> Block:
+    """Return a copy of a block whose `step` does not judge some of its inputs, whatever its numbers."""
+    made = copy.copy(block)
+    made.entries = {**block.entries, "step": replace(block.entries["step"], settled=names)}
+    if block.design is not None:
+        rebuild = block.design.rebuild
+        made.design = replace(block.design, rebuild=lambda values: _settled(rebuild(values), names))
+    return made
 
 
 def _closed_loop(

@@ -811,51 +811,6 @@ class _Builder(Derivation):
         doc = "Multiply the covariance by a factor and leave the estimate: after a disturbance the model does not know."
         return Entry("inflate", (factor,), (), body, doc)
 
-    def _step(self, predict: Entry, updates: list[tuple[Sensor, Entry]]) -> Entry:
-        inputs = list(predict.inputs)
-        outputs: list[Signal] = []
-        arguments = tuple((signal.name, Place("in", signal.name)) for signal in predict.inputs)
-        body: list[Statement] = [Call("predict", arguments)]
-        for sensor, entry in updates:
-            name = sensor.signal.name
-            reading = entry.inputs[0]
-            flag = Signal(
-                f"has_{name}", kind=Kind.FLAG, low=(0.0,), high=(1.0,), doc=f"whether there is a reading of {name}"
-            )
-            inputs += [flag, reading]
-            group = Signal(name, kind=Kind.GROUP, members=entry.outputs, doc=f"what update_{name} reported, else zeros")
-            status = Signal(f"status_{name}", kind=Kind.STATUS, doc=f"status of {name} itself")
-            outputs += [status, group]
-            given = tuple((signal.name, Place("in", signal.name)) for signal in entry.inputs)
-            zeros: tuple[Statement, ...] = tuple(
-                Assign(Place("out", f"{name}.{signal.name}"), 0.0, signal.size) for signal in entry.outputs
-            )
-            report = Place("out", f"status_{name}")
-            skipped: tuple[Statement, ...] = (*zeros, Raise(Status.SKIPPED))
-            limit = Element(Place("param", "reject_limit"))
-            count = Element(Place("next", f"rejected_{name}"))
-            normal = Attempt((Call(entry.name, given, Place("out", name)),), report, (), skipped)
-            recovery = Attempt(
-                (
-                    Call("inflate", (("factor", Place("param", "inflation")),)),
-                    Call(entry.name, (*given, ("gate", 0.0)), Place("out", name)),
-                ),
-                report,
-                (Raise(Status.RECOVERED),),
-                skipped,
-            )
-            due = AllOf((Compare(limit, ">", 0.0), Compare(count, ">=", limit)))
-            body.append(
-                When(
-                    IsSet(Element(Place("in", f"has_{name}"))),
-                    (When(due, (recovery,), (normal,), f"{name} gated too often in a row: trust it once"),),
-                    (*zeros, Assign(report, 0.0, 1)),
-                    name,
-                )
-            )
-        doc = "Predict, then every sensor that has a reading, in this order; a refused sensor is skipped."
-        return Entry("step", tuple(inputs), tuple(outputs), tuple(body), doc)
-
     def build(self) -> Block:
         """Derive and assemble."""
         plant, block = self.plant, self.block
@@ -866,7 +821,7 @@ class _Builder(Derivation):
             self._init(),
             predict,
             *[entry for _, entry in updates],
-            self._step(predict, updates),
+            step_entry(predict, [(sensor.signal.name, entry) for sensor, entry in updates]),
             self._inflate(),
         ]
         block.entries = {entry.name: entry for entry in entries}
@@ -940,6 +895,52 @@ class _Builder(Derivation):
                 )
             )
         return checks
+
+
+def step_entry(predict: Entry, updates: Sequence[tuple[str, Entry]]) -> Entry:
+    """Return `step`: `predict`, then the update of each (sensor, its entry) that has a reading, a refused one skipped."""
+    inputs = list(predict.inputs)
+    outputs: list[Signal] = []
+    arguments = tuple((signal.name, Place("in", signal.name)) for signal in predict.inputs)
+    body: list[Statement] = [Call("predict", arguments)]
+    for name, entry in updates:
+        reading = entry.inputs[0]
+        flag = Signal(
+            f"has_{name}", kind=Kind.FLAG, low=(0.0,), high=(1.0,), doc=f"whether there is a reading of {name}"
+        )
+        inputs += [flag, reading]
+        group = Signal(name, kind=Kind.GROUP, members=entry.outputs, doc=f"what update_{name} reported, else zeros")
+        status = Signal(f"status_{name}", kind=Kind.STATUS, doc=f"status of {name} itself")
+        outputs += [status, group]
+        given = tuple((signal.name, Place("in", signal.name)) for signal in entry.inputs)
+        zeros: tuple[Statement, ...] = tuple(
+            Assign(Place("out", f"{name}.{signal.name}"), 0.0, signal.size) for signal in entry.outputs
+        )
+        report = Place("out", f"status_{name}")
+        skipped: tuple[Statement, ...] = (*zeros, Raise(Status.SKIPPED))
+        limit = Element(Place("param", "reject_limit"))
+        count = Element(Place("next", f"rejected_{name}"))
+        normal = Attempt((Call(entry.name, given, Place("out", name)),), report, (), skipped)
+        recovery = Attempt(
+            (
+                Call("inflate", (("factor", Place("param", "inflation")),)),
+                Call(entry.name, (*given, ("gate", 0.0)), Place("out", name)),
+            ),
+            report,
+            (Raise(Status.RECOVERED),),
+            skipped,
+        )
+        due = AllOf((Compare(limit, ">", 0.0), Compare(count, ">=", limit)))
+        body.append(
+            When(
+                IsSet(Element(Place("in", f"has_{name}"))),
+                (When(due, (recovery,), (normal,), f"{name} gated too often in a row: trust it once"),),
+                (*zeros, Assign(report, 0.0, 1)),
+                name,
+            )
+        )
+    doc = "Predict, then every sensor that has a reading, in this order; a refused sensor is skipped."
+    return Entry("step", tuple(inputs), tuple(outputs), tuple(body), doc)
 
 
 def _ours(evaluate: Evaluate, local: str, pattern: Pattern, shape: tuple[int, int]) -> Any:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import casadi as ca
@@ -12,24 +12,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..reference.regulation import RegulatorFeedback
-from .analysis import OperatingPoint
+from .analysis import OperatingPoint, linearise
 from .block import Block, Design
 from .components import Calls, finish, matrix_of
 from .composition import Delay, connect, wires
 from .controllers import LARGEST_GAIN, deviation_from
 from .design import Gain
 from .errors import ModelError
+from .exosystems import Exosystem, time_text
 from .origins import place_of_call
 from .parametric_regulator import ParametricRegulator
 from .plant import Plant, Symbol
-from .regulator_equations import RegulatorSolution, closed_loop, linear_model
-from .signal_generators import signal_groups
+from .regulator_equations import LinearModel, RegulatorSolution, closed_loop, model_of, regulated
+from .signal_generators import observed_exosystem, signal_groups
 from .signals import Signal
 
 Array = NDArray[Any]
 Places = tuple[tuple[int, int], ...]
 
 MAPS = ("state_map", "input_map")
+
+SAME_MODEL = 1.0e-6
+"""Share of its largest element by which a matrix of the regulator equations may differ from that of the plant."""
 
 
 def output_regulator(
@@ -62,7 +66,8 @@ def output_regulator(
         the plant that do not act.
     generator : Block, or dict
         Of `kalman_exosystem` or `high_gain_exosystem`: the observer of w, one vector ``w_<signal>`` for each signal. Or signal
-        -> an observer of that signal alone; signals of one kind may have the very same Block, which then is in the C once.
+        -> an observer of that signal alone; signals of one kind may have the very same Block, which then is in the C once. It
+        has to be an observer of the exosystem of the solution (of another Block only the time step is known).
     estimator : Block, optional
         An estimator of the plant's own state, such as `extended_kalman_filter` of it. Without one the states are inputs.
     saturate : bool
@@ -84,34 +89,41 @@ def output_regulator(
     Raises
     ------
     RegulatorError
-        If the gain does not stabilise the plant.
+        If the gain does not stabilise the plant, linearised at the point, at the rate at which the law runs.
     ModelError
-        If shapes or names do not match.
+        If shapes or names do not match, the time bases differ, the generator observes another exosystem, or the solution is
+        that of another plant or point.
     """
     name = name or f"{plant.name}_regulator"
+    nominal = solution.nominal if isinstance(solution, ParametricRegulator) else solution
+    parts, joined = _generators(name, generator, nominal)
+    rate = _common_rate(name, plant, nominal, parts)
     if isinstance(solution, ParametricRegulator):
         from .retunable_regulator import retunable_feedback
 
         feedback = retunable_feedback(
-            plant, gain, solution, saturate=saturate, accept_unstable=accept_unstable, name=f"{plant.name}_feedback"
+            plant,
+            gain,
+            solution,
+            saturate=saturate,
+            accept_unstable=accept_unstable,
+            name=f"{plant.name}_feedback",
+            dt=rate,
         )
-        solution = solution.nominal
     else:
         feedback = regulator_feedback(
             plant, point, gain, solution, saturate=saturate, tunable=tunable, accept_unstable=accept_unstable,
-            name=f"{plant.name}_feedback",
+            name=f"{plant.name}_feedback", dt=rate,
         )  # fmt: skip
-    parts, joined = _generators(name, generator, solution)
-    feedback.sample_time = next((part.sample_time for part in parts.values() if part.sample_time), feedback.sample_time)
     if estimator is not None:
         where = OperatingPoint.at(plant, point)
         parts["estimator"] = estimator
         joined |= wires("estimator", "feedback", plant.states)
-        acting = [item.name for item in _acting(plant, solution)]
+        acting = [item.name for item in _acting(plant, nominal)]
         joined |= wires("feedback", "estimator", acting, initial={item: where.inputs[item] for item in acting})
     parts["feedback"] = feedback
-    text = doc or f'output regulator of the plant "{plant.name}": follows {", ".join(solution.model.outputs)}'
-    return connect(parts, joined, name, doc=text)
+    text = doc or f'output regulator of the plant "{plant.name}": follows {", ".join(nominal.model.outputs)}'
+    return connect(parts, joined, name, settled=True, doc=text)
 
 
 def _generators(
@@ -120,6 +132,7 @@ def _generators(
     """Return the parts that observe w, and the wires from them to the law."""
     signals = [signal for signal, _ in signal_groups(solution.exosystem)]
     if isinstance(generator, Block):
+        _check_observer(name, "the generator", generator, solution.exosystem, list(solution.exosystem.signals))
         return {"generator": generator}, {f"feedback.w_{signal}": f"generator.w_{signal}" for signal in signals}
     if sorted(generator) != sorted(signals):
         raise ModelError(
@@ -135,8 +148,67 @@ def _generators(
             raise ModelError(
                 f"{name}: the generator of {signal!r} observes {', '.join(found) or 'nothing'}; give it one signal"
             )
+        _check_observer(name, f"the generator of {signal!r}", block, solution.exosystem, [signal])
         joined[f"feedback.w_{signal}"] = f"generator_{signal}.{found[0]}"
     return {f"generator_{signal}": generator[signal] for signal in signals}, joined
+
+
+def _check_observer(owner: str, what: str, block: Block, exosystem: Exosystem, signals: list[str]) -> None:
+    """Refuse an observer of something else than the exosystem, or this signal of it, for which the maps are."""
+    observed = observed_exosystem(block)
+    dt = block.sample_time if observed is None else observed.dt
+    if exosystem.dt is not None and dt is not None and dt != exosystem.dt:
+        raise ModelError(
+            f"{owner}: {what} is {time_text(dt)}, and the regulator equations were solved for an exosystem that is "
+            f"{time_text(exosystem.dt)}; sample both with one dt"
+        )
+    if observed is None:
+        return
+    if exosystem.dt is None and observed.dt is not None:  # maps of the continuous plant, held over a step
+        exosystem = exosystem.sampled(observed.dt, observed.method or "exact")
+    theirs = list(observed.signals) if len(signals) == 1 else signals
+    missing = sorted(set(theirs) - set(observed.signals))
+    if missing:
+        raise ModelError(
+            f"{owner}: {what} does not observe {', '.join(missing)}; give an observer of the whole exosystem"
+        )
+    found, wanted = _seen(observed, theirs), _seen(exosystem, signals)
+    if found is None or wanted is None or not all(_alike(a, b) for a, b in zip(found, wanted, strict=True)):
+        raise ModelError(
+            f"{owner}: {what} observes another exosystem (S or Q differ, {observed.kind} {observed.method}) than that of the "
+            f"regulator equations ({exosystem.kind} {exosystem.method}); make both from one exosystem, sampled in one way"
+        )
+
+
+def _seen(exosystem: Exosystem, signals: list[str]) -> tuple[Array, Array] | None:
+    """Return (S, Q) of some signals, states in the order in which w comes; None if other states act on them."""
+    groups = dict(signal_groups(exosystem))
+    order = [k for signal in signals for k in groups.get(signal, [])]
+    rest = [k for k in range(exosystem.order) if k not in order]
+    rows = [exosystem.signals.index(signal) for signal in signals]
+    S, Q = exosystem.matrix, exosystem.output
+    if np.any(S[np.ix_(order, rest)]) or np.any(Q[np.ix_(rows, rest)]):
+        return None
+    return S[np.ix_(order, order)], Q[np.ix_(rows, order)]
+
+
+def _alike(first: Array, second: Array) -> bool:
+    """Whether matrices are the same, to the rounding of one exponential or another."""
+    if first.shape != second.shape:
+        return False
+    return np.allclose(first, second, rtol=1e-9, atol=1e-14 * float(np.max(np.abs(first), initial=0.0)))
+
+
+def _common_rate(owner: str, plant: Plant, solution: RegulatorSolution, parts: Mapping[str, Block]) -> float | None:
+    """Return the time step at which the law runs: that of the generators, which has to be that of a discrete plant."""
+    rates = {part.sample_time for part in parts.values() if part.sample_time is not None}
+    own = plant.dt if isinstance(plant.dt, float) else solution.exosystem.dt
+    if len(rates | ({own} if own is not None else set())) > 1:
+        told = ", ".join(f"{part} {block.sample_time} s" for part, block in parts.items())
+        raise ModelError(
+            f"{owner}: the plant {plant.name!r} is {time_text(own)}, and of the generators {told}; sample all with one dt"
+        )
+    return next(iter(rates), own)
 
 
 def regulator_feedback(
@@ -150,6 +222,7 @@ def regulator_feedback(
     accept_unstable: bool = False,
     name: str = "",
     doc: str = "",
+    dt: float | None = None,
 ) -> Block:
     """Return the law alone: inputs are the states of the plant and ``w_<signal>``, outputs its acting inputs.
 
@@ -157,6 +230,9 @@ def regulator_feedback(
     ----------
     plant, point, gain, solution, saturate, tunable, accept_unstable, name, doc
         As for `output_regulator`.
+    dt : float, optional
+        Seconds between steps where the plant does not have a time step of its own. Default: that of the exosystem, or of a
+        Gain.
 
     Returns
     -------
@@ -172,12 +248,74 @@ def regulator_feedback(
             f"{name}: the gain has shape {K.shape}, Pi {solution.state_map.shape} and Gamma {solution.input_map.shape}; give K "
             f"{shape[0]} x {shape[1]}, and the solution for this plant"
         )
-    model = solution.model
-    if isinstance(gain, Gain) and gain.dt != model.dt:  # a law for samples, maps of the continuous plant
-        model = linear_model(gain.A, gain.B, np.zeros((0, len(gain.A))), dt=gain.dt, name=plant.name)
-    closed_loop(model, K, accept_unstable=accept_unstable)
-    law = _Law(plant, where, solution, saturate, tunable, name, doc or "u = u* + Gamma w - K (x - x* - Pi w)", gain)
+    rate = plant.dt if isinstance(plant.dt, float) else dt or solution.exosystem.dt
+    if rate is None and isinstance(gain, Gain):
+        rate = gain.dt
+    _check_model(name, plant, where, solution, rate)
+    closed_loop(_running(plant, where, solution, rate), K, accept_unstable=accept_unstable)
+    text = doc or "u = u* + Gamma w - K (x - x* - Pi w)"
+    law = _Law(plant, where, solution, saturate, tunable, name, text, gain, rate)
     return law.block({"gain": K, **solution.rounded()})
+
+
+def _near_point(plant: Plant, where: OperatingPoint, rate: float | None) -> LinearModel:
+    """Return the plant, linearised at the point."""
+    return model_of(linearise(plant, where, dt=rate if isinstance(plant.dt, tuple) else None))
+
+
+def _running(plant: Plant, where: OperatingPoint, solution: RegulatorSolution, rate: float | None) -> LinearModel:
+    """Return the plant as the law meets it, inputs that do not act left out: a continuous one held over a step."""
+    acting = _acting_model(plant, _near_point(plant, where, rate), solution)
+    return acting.sampled(rate) if acting.dt is None and rate is not None else acting
+
+
+def _acting_model(plant: Plant, near: LinearModel, solution: RegulatorSolution) -> LinearModel:
+    """Return a linearisation without the inputs that do not act."""
+    names = {item.name for item in _acting(plant, solution)}
+    kept = [symbol.signal.name in names for symbol in plant.inputs for _ in range(symbol.signal.size)]
+    labels = tuple(label for label, acts in zip(near.inputs, kept, strict=True) if acts)
+    return replace(near, B=near.B[:, kept], D=near.D[:, kept], inputs=labels)
+
+
+def _check_model(
+    owner: str, plant: Plant, where: OperatingPoint, solution: RegulatorSolution, rate: float | None
+) -> None:
+    """Refuse a solution of the regulator equations of another plant, or of this one at another point."""
+    model, near = solution.model, _near_point(plant, where, rate)
+    if model.dt is None and near.dt is not None and plant.discretisation is not None:
+        near = model_of(linearise(plant.discretisation.continuous, where))
+    if model.dt is not None and near.dt is None:
+        found = [near.sampled(model.dt, method) for method in ("exact", "euler")]
+    else:
+        found = [near]
+    if found[0].dt != model.dt:
+        raise ModelError(
+            f"{owner}: the plant {plant.name!r} is {time_text(near.dt)}, and the regulator equations were solved for one that "
+            f"is {time_text(model.dt)}; solve them for linearise(plant, point)"
+        )
+    named = {*near.outputs, *near.states, *near.inputs}.issuperset(solution.exosystem.signals)
+    if named:
+        views = [regulated(item, solution.exosystem)[0] for item in found]
+    else:  # a LinearModel with labels of its own
+        views = [_acting_model(plant, item, solution) for item in found]
+    share, what = min(_difference(item, model, "ABCDEF" if named else "AB") for item in views)
+    if share > SAME_MODEL:
+        raise ModelError(
+            f"{owner}: the regulator equations were solved for another plant, or at another point ({what} differs by "
+            f"{share:.3g} of its largest element from that of {plant.name!r} at the point); solve them for linearise(plant, point)"
+        )
+
+
+def _difference(mine: LinearModel, model: LinearModel, names: str) -> tuple[float, str]:
+    """Return (largest difference of a matrix, of its largest element, which one it is)."""
+    answer = [(0.0, "A")]
+    for what in names:
+        first, second = getattr(mine, what), getattr(model, what)
+        if first.shape != second.shape:
+            return math.inf, what
+        size = max(float(np.max(np.abs(item), initial=0.0)) for item in (first, second))
+        answer.append((float(np.max(np.abs(first - second), initial=0.0)) / size if size else 0.0, what))
+    return max(answer)
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,6 +330,7 @@ class _Law:
     name: str
     doc: str
     gain: Gain | Any
+    rate: float | None
 
     @property
     def order(self) -> list[int]:
@@ -229,7 +368,7 @@ class _Law:
             limits={item.name: (item.low, item.high) for item in acting} if self.saturate else {},
             doc="The command for a state of the plant and of the exosystem.",
         )
-        block.sample_time = plant.dt if isinstance(plant.dt, float) else self.solution.exosystem.dt
+        block.sample_time = self.rate
         kinds = tuple(
             (state.signal.name, "attitude" if state.attitude else "angle" if state.signal.angle else "plain")
             for state in plant.states
@@ -331,7 +470,7 @@ class _Law:
                         f"{self.name}: {what} of design.json has other zeros than the model; export with --redesign"
                     )
             made = self.block({**values, **given})
-            made.source, made.sample_time = source_line, made.sample_time
+            made.source = source_line
             return made
 
         def properties(given: dict[str, Any]) -> dict[str, tuple[float, float]]:

@@ -649,6 +649,8 @@ class Entry:
         Whether it judges the parameters' ranges (`init` does).
     sources : tuple of str
         Lines of the user's file that it comes from, beside that of the block; no part of the model.
+    settled : tuple of str
+        Inputs that are not judged here: whoever calls it has judged them in the same call, against no wider a range.
     """
 
     name: str
@@ -659,6 +661,7 @@ class Entry:
     hidden: tuple[tuple[Signal, Place], ...] = ()
     checks_params: bool = False
     sources: tuple[str, ...] = ()
+    settled: tuple[str, ...] = ()
 
 
 @dataclass

@@ -155,7 +155,7 @@ def regulated(model: Any, exosystem: Exosystem) -> tuple[LinearModel, Array, Arr
     ModelError
         If a name is not known to the plant, or the time bases differ.
     """
-    plant = model if isinstance(model, LinearModel) else _linear_model_of(model)
+    plant = model if isinstance(model, LinearModel) else model_of(model)
     if plant.dt != exosystem.dt:
         raise ModelError(
             f"{plant.name} is {time_text(plant.dt)} and the exosystem of {', '.join(exosystem.signals) or 'nothing'} is "
@@ -193,7 +193,8 @@ def _row(C: Array, outputs: Sequence[str], states: Sequence[str], name: str) -> 
     return np.asarray(C[outputs.index(name)] if name in outputs else np.eye(len(states))[states.index(name)])
 
 
-def _linear_model_of(given: Any) -> LinearModel:
+def model_of(given: Any) -> LinearModel:
+    """Return the `LinearModel` of a Linearisation or a control.StateSpace, with its labels."""
     if isinstance(given, Linearisation):
         dt, name, labels = given.dt, given.plant.name, (given.states, given.inputs, given.outputs)
     elif all(hasattr(given, item) for item in ("A", "B", "C", "D", "dt", "state_labels")):
@@ -609,7 +610,7 @@ def closed_loop(model: Any, gain: Gain | Any, *, accept_unstable: bool = False) 
     RegulatorError
         If A - B K is not stable; the sentence has the spectral radius, or the largest real part.
     """
-    plant = model if isinstance(model, LinearModel) else _linear_model_of(model)
+    plant = model if isinstance(model, LinearModel) else model_of(model)
     K = gain.gain if isinstance(gain, Gain) else matrix_of(plant.name, "the gain", gain)
     if K.shape != plant.B.T.shape:
         raise ModelError(f"{plant.name}: the gain has shape {K.shape}, and B {plant.B.shape}; give inputs x states")

@@ -44,6 +44,7 @@ def retunable_feedback(
     accept_unstable: bool = False,
     name: str = "",
     doc: str = "",
+    dt: float | None = None,
 ) -> Block:
     """Return the law u = u*(p) + Gamma(p) w - K (x - x* - Pi(p) w), p being run-time parameters.
 
@@ -57,6 +58,8 @@ def retunable_feedback(
         Of `parametric_francis`.
     saturate, accept_unstable, name, doc
         As for `output_regulator`.
+    dt : float, optional
+        Seconds between steps, of a continuous plant.
 
     Returns
     -------
@@ -79,7 +82,11 @@ def retunable_feedback(
     shape = (sum(item.size for item in acting), plant.error_size)
     if K.shape != shape:
         raise ModelError(f"{name}: the gain has shape {K.shape}; give {shape[0]} x {shape[1]}")
-    closed_loop(solution.model, K, accept_unstable=accept_unstable)
+    rate = plant.dt if isinstance(plant.dt, float) else dt or solution.exosystem.dt
+    model = solution.model
+    closed_loop(
+        model.sampled(rate) if model.dt is None and rate is not None else model, K, accept_unstable=accept_unstable
+    )
     block = Block(name, doc=doc or "u = u*(p) + Gamma(p) w - K (x - x* - Pi(p) w)")
     order = [k for _, columns in signal_groups(solution.exosystem) for k in columns]
     maps = {"state_map": regulator.state_map[:, order], "input_map": regulator.input_map[:, order]}
@@ -111,7 +118,7 @@ def retunable_feedback(
         limits={item.name: (item.low, item.high) for item in acting} if saturate else {},
         doc="The command for a state of the plant and of the exosystem.",
     )
-    block.sample_time = plant.dt if isinstance(plant.dt, float) else solution.exosystem.dt
+    block.sample_time = rate
     block.source_hash = plant.fingerprint() + repr(K.tolist())
     block.oracle = _oracle(block, plant, regulator, K, places, acting, generated, saturate)
     block.scenario = _scenario(plant, regulator, K, places, acting, generated)

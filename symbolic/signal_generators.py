@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..reference.controllers import Range
 from ..reference.regulation import HighGainOracle
+from . import shared_covariance
 from .block import Block, Scenario
 from .errors import ModelError
 from .estimators import kalman_filter, steady_state_kalman_filter
@@ -33,6 +34,7 @@ def exosystem_plant(
     process_variance: Any,
     measurement_variance: Any,
     ranges: Mapping[str, tuple[float, float]] | None = None,
+    together: bool = False,
     name: str = "exosystem",
 ) -> Plant:
     """Return a discrete exosystem as a Plant without inputs: w+ = S w + noise, and a sensor for each signal.
@@ -47,6 +49,8 @@ def exosystem_plant(
         M, positive, of every reading; or signal -> number.
     ranges : dict, optional
         Signal -> (low, high) of its readings. Default -1e6 .. 1e6.
+    together : bool
+        Whether all signals are one vector sensor, ``readings``.
     name : str
         Of the plant.
 
@@ -86,6 +90,18 @@ def exosystem_plant(
         start += len(columns)
         noises[state] = _of_signal(name, "process_variance", process_variance, signal, len(columns))
     plant.dynamics(rates)
+    if together:
+        ends = [(ranges or {}).get(signal, (-WIDE, WIDE)) for signal in exosystem.signals]
+        plant.sensor(
+            "readings", ca.SX(ca.sparsify(ca.DM(exosystem.output[:, order]))) @ w,
+            variance=[
+                _of_signal(name, "measurement_variance", measurement_variance, signal, 1)[0]
+                for signal in exosystem.signals
+            ],
+            range=(tuple(low for low, _ in ends), tuple(high for _, high in ends)),
+            doc=f"readings of {', '.join(exosystem.signals)}",
+        )  # fmt: skip
+        return plant.step_noise(noises)
     for row, signal in enumerate(exosystem.signals):
         expression = ca.SX(ca.sparsify(ca.DM(exosystem.output[row : row + 1, order]))) @ w
         variance = _of_signal(name, "measurement_variance", measurement_variance, signal, 1)[0]
@@ -113,6 +129,18 @@ def signal_groups(exosystem: Exosystem) -> list[tuple[str, list[int]]]:
     return list(answer.items())
 
 
+def _observes(block: Block, exosystem: Exosystem) -> Block:
+    """Keep with an observer what it is an observer of."""
+    vars(block)["_exosystem"] = exosystem
+    return block
+
+
+def observed_exosystem(block: Block) -> Exosystem | None:
+    """Return the exosystem of a Block made by `kalman_exosystem` or `high_gain_exosystem`; None of any other Block."""
+    found = vars(block).get("_exosystem")
+    return found if isinstance(found, Exosystem) else None
+
+
 def _of_signal(owner: str, what: str, given: Any, signal: str, size: int) -> list[float]:
     """Return the numbers that are given for a signal."""
     value = given.get(signal) if isinstance(given, Mapping) else given
@@ -136,6 +164,7 @@ def kalman_exosystem(
     measurement_variance: Any,
     initial_variance: float = 1.0,
     steady: bool = False,
+    together: bool = False,
     ranges: Mapping[str, tuple[float, float]] | None = None,
     name: str = "exosystem",
     doc: str = "",
@@ -153,10 +182,14 @@ def kalman_exosystem(
     steady : bool
         Whether the gain is that of the steady state: no covariance is kept, at a small part of the cost. All readings then
         have one flag, ``has_readings``; for flags of their own give each signal a Block of its own. The process needs noise.
+    together : bool
+        Whether all signals are read at once, as one vector ``readings`` with one flag, one gate and one status, and refused at
+        once: signals of one kind and one noise then have the same covariance for ever, which is kept and computed once.
     doc : str
         Its meaning.
     **options
-        As for `kalman_filter`: form, gate, ...
+        As for `kalman_filter`: form, gate, ...; with `together` gate (a number), reject_limit, inflation, variance_floor,
+        variance_ceiling.
 
     Returns
     -------
@@ -169,18 +202,41 @@ def kalman_exosystem(
         process_variance=process_variance,
         measurement_variance=measurement_variance,
         ranges=ranges,
+        together=together,
         name=name,
     )
+    if together:
+        if steady:
+            raise ModelError(f"{name}: with steady=True all readings come together anyway; leave out together=True")
+        _one_noise(name, exosystem, process_variance, measurement_variance)
+        text = doc or f"Kalman filter as the generator of {', '.join(exosystem.signals)}, read together"
+        return _observes(shared_covariance.build(plant, exosystem, initial_variance, name, text, options), exosystem)
     if steady:
         if options:
             raise ModelError(
                 f"{name}: {', '.join(options)} is for a filter with a covariance; leave it out, or steady=True"
             )
         text = doc or f"Kalman filter in steady state as the generator of {', '.join(exosystem.signals)}"
-        return steady_state_kalman_filter(plant, name=name, doc=text)
+        return _observes(steady_state_kalman_filter(plant, name=name, doc=text), exosystem)
     variances = {state.signal.name: float(initial_variance) for state in plant.states}
     text = doc or f"Kalman filter as the generator of {', '.join(exosystem.signals)}"
-    return kalman_filter(plant, initial_variance=variances, name=name, doc=text, **options)
+    return _observes(kalman_filter(plant, initial_variance=variances, name=name, doc=text, **options), exosystem)
+
+
+def _one_noise(name: str, exosystem: Exosystem, process_variance: Any, measurement_variance: Any) -> None:
+    """Refuse signals that differ in their noise."""
+    sizes = {signal: len(columns) for signal, columns in signal_groups(exosystem)}
+    for what, given, vector in (
+        ("process_variance", process_variance, True),
+        ("measurement_variance", measurement_variance, False),
+    ):
+        numbers = {
+            tuple(_of_signal(name, what, given, signal, size if vector else 1)) for signal, size in sizes.items()
+        }
+        if len(numbers) > 1:
+            raise ModelError(
+                f"{name}: {what} differs between the signals, which then have no covariance in common; leave out together=True"
+            )
 
 
 def bandwidth(dt: float, degree: int, process_variance: float, measurement_variance: float) -> float:
@@ -280,7 +336,7 @@ def high_gain_exosystem(
     coasting = S.copy()
     coasting[:, 0] += gains
     _finish_high_gain(block, [(signal, coasting, gains) for signal, _ in channels], ranges or {})
-    return block
+    return _observes(block, exosystem)
 
 
 def _channels(name: str, exosystem: Exosystem, coefficients: Sequence[float]) -> list[tuple[str, int]]:

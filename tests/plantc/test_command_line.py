@@ -514,6 +514,15 @@ def test_check_runs_the_c_that_lies_there(exported, plantc):
     assert any(not check["passed"] for check in answer["checks"])
 
 
+def test_check_finds_c_that_was_broken_by_hand(exported, plantc):
+    path = exported[1] / "src/low_pass.c"
+    path.write_text(path.read_text() + "hello\n")
+    said = checked(plantc, exported)
+    fails(said, 1, "the C that lies there compiles", "changed by hand")
+    assert "fault of plantc" not in said.err
+    assert one_object(said)["changed"] == ["src/low_pass.c"]
+
+
 def test_check_finds_a_changed_model(exported, plantc, model):
     model(LOW_PASS.replace("0.1", "0.2"))
     said = checked(plantc, exported)

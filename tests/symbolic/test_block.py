@@ -280,3 +280,10 @@ def test_an_input_and_a_parameter_may_share_a_name():
     view = NativeView(block)
     answer = view.call("step", view.init(), view.inputs("step", {"level": 5.0}), view.params(level=1.0))
     assert answer.outputs["gap"] == 4.0
+
+
+def test_a_block_without_an_entry_is_none():
+    with pytest.raises(
+        ModelError, match=r"blank: it has no entry, so nothing could be called; declare one with entry\(...\)"
+    ):
+        Block("blank").check()

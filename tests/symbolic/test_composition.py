@@ -1,5 +1,8 @@
 """connect: order, delays, units, loops, and the composed oracle."""
 
+import copy
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -11,7 +14,9 @@ from plantc import (
     connect,
     cross_check,
     delay,
+    emit,
     extended_kalman_filter,
+    state_feedback,
     steady_state_kalman_filter,
     wires,
 )
@@ -169,3 +174,41 @@ def test_a_part_without_parameters_and_memory_can_be_composed():
         ]
         == 16
     )
+
+
+def law_of(reach):
+    """A law of a cart whose track is so long."""
+    plant = Plant("short_cart")
+    position = plant.state("position", unit="m", range=(-reach, reach))
+    push = plant.input("push", unit="m/s^2", range=(-1000, 1000))
+    plant.dynamics({position: push})
+    return state_feedback(plant, {}, [[0.5]], name="law")
+
+
+def with_law(law, source="ekf.position", **options):
+    ekf = extended_kalman_filter(cart(), initial_variance={"position": 10, "speed": 1})
+    return connect({"ekf": ekf, "law": law}, {"law.position": source}, "pair", **options)
+
+
+def test_what_a_part_has_judged_is_not_judged_again(needs):
+    needs("gcc")
+    law = law_of(90)
+    once, twice = with_law(law, settled=True), with_law(law)
+    assert once.parts["law"].entries["step"].settled == ("position",)
+    assert twice.parts["law"].entries["step"].settled == law.entries["step"].settled == ()
+    assert "status = PAIR_BAD_INPUT" in emit(twice).source.split("pair_law_step_core")[1].split("\n}\n")[0]
+    assert "status = PAIR_BAD_INPUT" not in emit(once).source.split("pair_law_step_core")[1].split("\n}\n")[0]
+    assert cross_check(once, steps=20).passed
+    # a wider source and what comes a step late are judged by whoever takes them
+    assert with_law(law_of(80), settled=True).parts["law"].entries["step"].settled == ()
+    assert with_law(law, delay("ekf.position"), settled=True).parts["law"].entries["step"].settled == ()
+
+
+def test_a_judgement_left_out_where_it_was_needed_is_seen(needs):
+    needs("gcc")
+    block = with_law(law_of(40), settled=True)
+    assert cross_check(block, steps=20).passed
+    law = copy.copy(block.parts["law"])
+    law.entries = {**law.entries, "step": replace(law.entries["step"], settled=("position",))}
+    block.parts["law"] = law
+    assert not cross_check(block, steps=20).passed

@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plantc.reference import regulation as oracle
-from plantc.symbolic.exosystems import compose, polynomial
+from plantc.symbolic import sin
+from plantc.symbolic.exosystems import compose, constant, harmonic, polynomial
 from plantc.symbolic.output_regulator import output_regulator, regulator_feedback
-from plantc.symbolic.regulator_equations import RegulatorError, francis
+from plantc.symbolic.regulator_equations import RegulatorError, francis, linear_model
 from plantc.symbolic.signal_generators import high_gain_exosystem, kalman_exosystem
 
 from plantc import (
@@ -311,3 +312,101 @@ def test_without_an_exosystem_it_is_state_feedback(parts):
     view = InterpretView(law)
     answer = view.call("step", view.init(), view.inputs("step", {"position": 1.0, "speed": 0.0}), view.params())
     assert float(answer.outputs["force"]) == pytest.approx(-gain.gain[0, 0])
+
+
+# -- what has to belong together --------------------------------------------------------------------------------------
+
+
+def observer(*tracks, **options):
+    return kalman_exosystem(compose(tracks), process_variance=1e-4, measurement_variance=0.01, **options)
+
+
+@pytest.mark.parametrize(
+    ("dt", "method", "says"),
+    [
+        (
+            0.5,
+            "euler",
+            r"the generator is discrete with dt = 0.5 s, and .* an exosystem that is discrete with dt = 0.02 s",
+        ),
+        (T, "exact", r"the generator observes another exosystem \(S or Q differ, composition exact\)"),
+    ],
+)
+def test_a_generator_of_another_time_base_or_sampling_is_refused(parts, dt, method, says):
+    plant, gain, solution, _ = parts
+    tracks = [polynomial(name, 2).sampled(dt, method) for name in ("position", "wind")]
+    with pytest.raises(ModelError, match=says):
+        output_regulator(plant, {}, gain, solution, observer(*tracks))
+    each = {name: observer(one) for name, one in zip(("position", "wind"), tracks, strict=True)}
+    with pytest.raises(
+        ModelError, match=says.split(",")[0].split(" is")[0].replace("generator", "generator of 'position'")
+    ):
+        output_regulator(plant, {}, gain, solution, each)
+
+
+def test_a_generator_of_signals_of_another_kind_is_refused(parts):
+    plant, gain, _, _ = parts
+    line = compose([polynomial("position", 1), polynomial("wind", 1)]).sampled(T)
+    solution = francis(linearise(plant), line)
+    waves = observer(harmonic("position", 3.0).sampled(T), polynomial("wind", 1).sampled(T))
+    with pytest.raises(ModelError, match="observes another exosystem"):
+        output_regulator(plant, {}, gain, solution, waves)
+    with pytest.raises(ModelError, match="does not observe wind"):
+        output_regulator(plant, {}, gain, solution, observer(polynomial("position", 1).sampled(T)))
+    # the order of the signals is nothing that matters
+    turned = observer(polynomial("wind", 1).sampled(T), polynomial("position", 1).sampled(T))
+    assert output_regulator(plant, {}, gain, solution, turned).sample_time == T
+
+
+def cart(stiffness=0.0):
+    plant = Plant("cart")
+    x, v = plant.state("x", range=(-1e3, 1e3)), plant.state("v", range=(-1e3, 1e3))
+    u = plant.input("u", range=(-1e4, 1e4))
+    plant.dynamics({x: v, v: -stiffness * x - 0.3 * v + u})
+    return plant
+
+
+def test_the_gain_is_judged_with_the_plant_at_the_rate_of_the_law():
+    plant = cart()
+    slow = plant.discretise("euler", dt=0.5)
+    fast = lqr(linearise(plant), Q=[1e4, 10], R=1)  # stabilises the continuous plant, and the one sampled at 20 ms
+    solution = francis(linearise(slow), constant("x").sampled(0.5))
+    for gain in (fast, fast.gain):
+        with pytest.raises(RegulatorError, match=r"A - B K has spectral radius 4\.3\d+, not below 1"):
+            regulator_feedback(slow, {}, gain, solution)
+    maps = francis(linearise(plant), constant("x"))
+    assert regulator_feedback(plant, {}, fast, maps).sample_time is None
+    generators = {dt: observer(constant("x").sampled(dt)) for dt in (T, 0.5)}
+    assert output_regulator(plant, {}, fast, maps, generators[T]).sample_time == T
+    with pytest.raises(RegulatorError, match="spectral radius"):  # the continuous plant, held for half a second
+        output_regulator(plant, {}, fast, maps, generators[0.5])
+    with pytest.raises(
+        ModelError, match=r"the plant 'cart' is discrete with dt = 0.02 s, and of the generators generator 0.5"
+    ):
+        output_regulator(plant.discretise("euler", dt=T), {}, fast, maps, generators[0.5])
+
+
+def test_a_solution_of_another_plant_or_point_is_refused():
+    plant, other = (cart(stiffness).discretise("euler", dt=T) for stiffness in (0.0, 50.0))
+    gain = lqr(linearise(plant), Q=[100, 10], R=1)
+    says = r"for another plant, or at another point \(A differs by \S+ of its largest element from that of 'cart'"
+    with pytest.raises(ModelError, match=says):
+        regulator_feedback(plant, {}, gain, francis(linearise(other), constant("x").sampled(T)))
+    swing = Plant("swing")
+    angle, rate = swing.state("angle", range=(-10, 10)), swing.state("rate", range=(-100, 100))
+    torque = swing.input("torque", range=(-100, 100))
+    swing.dynamics({angle: rate, rate: -9.81 * sin(angle) - 0.1 * rate + torque})
+    sampled = swing.discretise("euler", dt=T)
+    gain, solution = lqr(linearise(sampled), Q=[1, 1], R=10), francis(linearise(sampled), constant("angle").sampled(T))
+    regulator_feedback(sampled, {}, gain, solution)
+    with pytest.raises(ModelError, match=r"at another point \(A differs"):
+        regulator_feedback(sampled, {"angle": 2.5, "torque": 9.81 * np.sin(2.5)}, gain, solution)
+
+
+def test_maps_of_matrices_with_labels_of_their_own():
+    plant = cart().discretise("euler", dt=T)
+    at = linearise(plant)
+    gain, signal = lqr(at, Q=[100, 10], R=1), constant("y_0").sampled(T)
+    regulator_feedback(plant, {}, gain, francis(linear_model(at.A, at.B, [[1, 0]], dt=T), signal))
+    with pytest.raises(ModelError, match=r"B differs by 0\.5 "):
+        regulator_feedback(plant, {}, gain, francis(linear_model(at.A, 2 * at.B, [[1, 0]], dt=T), signal))
