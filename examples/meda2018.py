@@ -826,12 +826,13 @@ def _summary(rows: Rows) -> str:
             f"{_kept(rows, 'EKF', 0.1)}; with 5 % more mass, r = 0.05, JSSE keeps {_kept(rows, 'JSSE', 0.05, 'M')}, the EKF "
             f"{_kept(rows, 'EKF', 0.05, 'M')}."
         )
+    leads, useful = _best(rows, "A", 0.1, "mse") == "JSSE-M", biased.err < ekf_m.err
     return (
-        "By the paper's mean square (eq. 45) its modified James-Stein estimator is the best at r = 0.1: "
+        f"By the paper's mean square (eq. 45) its modified James-Stein estimator is {'' if leads else 'not '}the best at r = 0.1: "
         f"{jssem.mse:.3g} against {ekf.mse:.3g} of the EKF. Against the true state its error is {jssem.err:.3g}, that "
         f"of the EKF {ekf.err:.3g}: it keeps {_kept(rows, 'JSSE-M', 0.1)} runs, the EKF {_kept(rows, 'EKF', 0.1)}. "
-        "The plain James-Stein estimator is of use where the model is wrong: with 5 % more mass its error is "
-        f"{biased.err:.3g}, that of the EKF {ekf_m.err:.3g} (r = 0.05)."
+        f"The plain James-Stein estimator is {'' if useful else 'not '}of use where the model is wrong: with 5 % more mass its "
+        f"error is {biased.err:.3g}, that of the EKF {ekf_m.err:.3g} (r = 0.05)."
     )  # fmt: skip
 
 

@@ -49,6 +49,7 @@ from plantc.simulation import Comparison, Picture, StudyResult, StudyTable, comp
 from plantc.symbolic import Block
 from plantc.symbolic.composition import connect, wires
 from plantc.symbolic.design import closed_loop_eigenvalues
+from plantc.symbolic.errors import ModelError
 from plantc.symbolic.exosystems import polynomial
 from plantc.symbolic.signal_generators import bandwidth, high_gain_matrices, peaking
 from plantc.symbolic.simulated import simulated_plant
@@ -1024,10 +1025,17 @@ def study(runs: int = 10, seed: int = 2018, *, on: str | None = None, progress: 
     seed : int
         Of the first one.
     on : str, optional
-        Not used: all loops fly side by side in this process.
+        Refused: all loops fly side by side in this process.
     progress : callable, optional
         Called with what is done, and how many of how many parts are.
+
+    Raises
+    ------
+    ModelError
+        If a cluster is given.
     """
+    if on is not None:
+        raise ModelError(f"{NAME}: the cluster {on} is given, but this study runs in this process only; leave it out")
     tell = progress or (lambda what, done, total: None)
     clock, seeds = {"start": time.perf_counter()}, [seed + k for k in range(runs)]
     total = 6

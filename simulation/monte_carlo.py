@@ -170,6 +170,7 @@ def replay(
         As by `monte_carlo`; ValueError also if the start of this run is out of range.
     """
     work = _work(loop, steps, seed, std, covariance, params, None)
+    _refuse_starts(loop, start or Start(), params or {})
     return _history(work, run, _start_of(loop, start or Start(), seed, run, work.params))
 
 
@@ -208,7 +209,7 @@ def monte_carlo(
         Noise -> its strength per step in the simulated truth, instead of the plant's; see `noise.channels`. What an estimator
         believes of it is a parameter: ``params={"controller.estimator.variance_pose": ...}``.
     params : dict, optional
-        Dotted parameter of the loop -> value.
+        Dotted parameter of the loop -> value; not those that `start` sets.
     limits : dict, optional
         State -> largest distance from the set point at which the plant counts as kept.
     on : str, optional
@@ -229,7 +230,7 @@ def monte_carlo(
     Raises
     ------
     ModelError
-        If a name is not known, or a strength or a start is out of range.
+        If a name is not known, or a strength, a start, a limit or `jobs` is out of range.
     ValueError
         If `init` refuses the parameters.
     ResultError
@@ -241,8 +242,13 @@ def monte_carlo(
     """
     if runs < 1 or steps < 1:
         raise ModelError(f"{loop.block.name}: {runs} runs of {steps} steps are asked for; give at least one of each")
+    if jobs is not None and jobs < 1:
+        raise ModelError(
+            f"{loop.block.name}: jobs={jobs} is given; give 1 or more threads, or leave it out for one for each core"
+        )
     begin = start or Start()
     work = _work(loop, steps, seed, std, covariance, params, limits)
+    _refuse_starts(loop, begin, params or {})
     result, stored = _so_far(_header(loop, work, runs, begin), file)
     starts = {run: _start_of(loop, begin, seed, run, work.params) for run in result.missing}
     with _shown(loop.block, progress) as report, _Writer(result, stored, file) as writer:
@@ -301,6 +307,11 @@ def _work(
     strange = sorted(set(limits or {}) - set(names))
     if strange:
         raise ModelError(f"limits= names {strange[0]!r}, which is no state; the states are {', '.join(names)}")
+    for name, limit in (limits or {}).items():
+        if not limit >= 0:
+            raise ModelError(
+                f"limits= gives {limit} for {name!r}; give the largest distance from the set point, zero or more"
+            )
     settled = loop.estimate_parameters(np.array(loop.layout.point))
     given = {name: np.asarray(value, dtype=float).ravel() for name, value in {**settled, **(params or {})}.items()}
     work = Work(
@@ -309,6 +320,20 @@ def _work(
     batch = _batch_of(work.text)
     batch.init(batch.params(given))
     return work
+
+
+def _refuse_starts(loop: ClosedLoop, start: Start, params: Mapping[str, Any]) -> None:
+    """Refuse parameters that the start sets in every run: they would be lost without a word."""
+    own = set(loop.truth_parameters(np.array(loop.layout.point)))
+    if start.known:
+        own |= set(loop.estimate_parameters(np.array(loop.layout.point)))
+        own |= set(loop.command_parameters(loop.point.u))
+    both = sorted(own & set(params))
+    if both:
+        raise ModelError(
+            f"params= gives {both[0]!r}, which start= sets in each run; move the set point, or say with start= how far "
+            "from it the runs start"
+        )
 
 
 def _header(loop: ClosedLoop, work: Work, runs: int, start: Start) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Self
@@ -17,6 +17,7 @@ from .metrics import Judgement
 
 FORMAT = "plantc Monte-Carlo 1"
 SUBSETS = {"kept": ("kept",), "finite": ("kept", "lost")}
+OUTCOMES = ("kept", "lost", "frozen")
 
 
 class ResultError(ValueError):
@@ -144,7 +145,7 @@ class Result:
         Raises
         ------
         ResultError
-            If it is no such file.
+            If it is no such file, or a line of it is damaged.
         """
         try:
             lines = Path(path).read_text().splitlines(keepends=True)
@@ -153,7 +154,18 @@ class Result:
                 raise ValueError(header["format"])
         except (OSError, ValueError, KeyError, IndexError, TypeError) as error:
             raise ResultError(f"{path} is no result of a Monte-Carlo ({error!r}); give another file") from None
-        return cls(header, dict(_rows(lines[1:])))
+        rows = {}
+        for number, line in enumerate(lines[1:], start=2):
+            if number == len(lines) and not line.endswith("\n"):
+                break  # cut off while it was written
+            try:
+                run, judgement = _row(line)
+            except (ValueError, KeyError, TypeError, AttributeError):
+                raise ResultError(
+                    f"{path}, line {number}: this is not what became of a run; remove the line, and the run is done again"
+                ) from None
+            rows[run] = judgement
+        return cls(header, rows)
 
     def same_settings(self, header: Mapping[str, Any]) -> str:
         """Return the name of a setting that differs from another header's, the number of runs aside; empty if none does."""
@@ -175,10 +187,10 @@ def row_line(run: int, judgement: Judgement) -> str:
     return json.dumps(row) + "\n"
 
 
-def _rows(lines: Iterable[str]) -> Iterable[tuple[int, Judgement]]:
-    for line in lines:
-        if not line.endswith("\n"):
-            return  # cut off while it was written
-        row = json.loads(line)
-        numbers = {name: math.nan if value is None else value for name, value in row.pop("metrics").items()}
-        yield row.pop("run"), Judgement(**row, metrics=numbers)
+def _row(line: str) -> tuple[int, Judgement]:
+    row = json.loads(line)
+    numbers = {name: math.nan if value is None else float(value) for name, value in row.pop("metrics").items()}
+    run = row.pop("run")
+    if not isinstance(run, int) or row.get("outcome") not in OUTCOMES:
+        raise ValueError(line)
+    return run, Judgement(**row, metrics=numbers)

@@ -329,14 +329,16 @@ def stands_for(case):
 def test_a_verdict_follows_the_numbers():
     """Planted: the rows of EKF and JSSE-M change places, and each verdict about them turns round."""
     other = {"EKF": "JSSE-M", "JSSE-M": "EKF"}
-    found = []
+    found, summaries = [], []
     for names in ({}, other):
         rows = {
             case: stands_for(replace(case, estimator=names.get(case.estimator, case.estimator)))
             for case in meda2018.cases()
         }
         found.append({item.published.split(":")[0]: item.verdict for item in meda2018._of_figures(rows)})
+        summaries.append(meda2018._summary(rows))
     honest, planted = found
+    assert "is the best at r = 0.1" in summaries[0] and "is not the best at r = 0.1" in summaries[1]
     for statement, right, turned in (
         ("Fig. 4, as the text tells it", "reproduces", "does not reproduce"),
         ("eq. 45 is the error of the estimates", "shown wrong", "reproduces"),

@@ -67,6 +67,7 @@ def test_json_is_alone_on_standard_output(asked, plantc, tmp_path):
         (["study", "sample", "--seed", "13"], "thirteen: give another seed"),
         (["study", "sample", "--seed", "14"], "interrupted"),
         (["study", "sample", "--seed", "15"], "error: nobody answers at dask://there:1; start a scheduler"),
+        (["study", "regulation2023", "--on", "dask://there:1"], "this study runs in this process only; leave it out"),
         (["study"], "Missing argument 'NAME'"),
     ],
 )

@@ -151,6 +151,22 @@ def test_more_runs_may_be_asked_for_later_and_a_line_cut_off_is_run_again(tank, 
     assert path.read_bytes() == monte_carlo(tank, runs=8, steps=10).save(tmp_path / "at_once").read_bytes()
 
 
+@pytest.mark.parametrize(
+    "damage", ['{"run": 1, "outc', '{"run": 1}', '{"run": "1", "metrics": {}}', "[]", '{"metrics": 3}']
+)
+def test_a_damaged_line_is_named(tank, tmp_path, damage):
+    path = tmp_path / "damaged"
+    monte_carlo(tank, runs=3, steps=5, file=path)
+    before = path.read_bytes()
+    lines = path.read_text().splitlines(keepends=True)
+    path.write_text("".join([*lines[:2], damage + "\n", *lines[3:]]))
+    with pytest.raises(ResultError, match="damaged, line 3: this is not what became of a run; remove the line"):
+        monte_carlo(tank, runs=3, steps=5, file=path)
+    path.write_text("".join([*lines[:2], *lines[3:]]))
+    monte_carlo(tank, runs=3, steps=5, file=path)
+    assert path.read_bytes() == before
+
+
 def test_fewer_runs_asked_for_later_take_nothing_from_the_file(tank, tmp_path):
     path = tmp_path / "many"
     whole = monte_carlo(tank, runs=8, steps=10, file=path)
@@ -199,6 +215,10 @@ def test_a_file_of_other_settings_is_refused(tank, tmp_path):
         ({"start": Start(-1.0)}, "give a number, zero or more"),
         ({"runs": 0}, "give at least one of each"),
         ({"start": Start(0.1, known=True)}, "start with known=False"),
+        ({"params": {"plant.level_0": 3.0}}, "params= gives 'plant.level_0', which start= sets in each run"),
+        ({"limits": {"level": float("nan")}}, "limits= gives nan for 'level'; give the largest distance"),
+        ({"limits": {"level": -1.0}}, "limits= gives -1.0 for 'level'"),
+        ({"jobs": -2}, "jobs=-2 is given; give 1 or more threads"),
     ],
 )
 def test_what_is_not_known_is_said(tank, given, message):
