@@ -158,7 +158,10 @@ class Exosystem:
         name = _listed(self.signals)
         if self.kind == "matrix":
             raise ModelError(f"exosystem of {name}: its matrix was given, so that w_0 is yours to choose")
-        numbers = np.atleast_1d(np.asarray(of, dtype=float)).ravel()
+        try:
+            numbers = np.atleast_1d(np.asarray(of, dtype=float)).ravel()
+        except (TypeError, ValueError):
+            raise ModelError(f"exosystem of {name}: w_0 is {of!r}; give at most {self.order} finite numbers") from None
         if len(numbers) > self.order or not np.all(np.isfinite(numbers)):
             raise ModelError(
                 f"exosystem of {name}: {len(numbers)} coefficient(s) are given; give at most {self.order} finite numbers"
@@ -188,8 +191,14 @@ class Exosystem:
                 pieces.append(part.initial({name: of[name] for name in part.signals if name in of}))
                 continue
             given = [of[name] for name in part.signals if name in of]
-            if given and len(places[part.signals[0]]) > 1:
-                given = [given[0][[item is part for item in places[part.signals[0]]].index(True)]]
+            together = places[part.signals[0]] if part.signals else []
+            if given and len(together) > 1:
+                if not isinstance(given[0], Sequence | np.ndarray) or len(given[0]) != len(together):
+                    raise ModelError(
+                        f"exosystem of {_listed(self.signals)}: w_0 of {part.signals[0]!r} is {given[0]!r}; the signal is a sum of "
+                        f"{len(together)} parts, so give a list of coefficients for each of them"
+                    )
+                given = [given[0][[item is part for item in together].index(True)]]
             pieces.append(part.initial(given[0]) if given else np.zeros(part.order))
         return np.concatenate(pieces)
 

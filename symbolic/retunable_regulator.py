@@ -51,7 +51,8 @@ def retunable_feedback(
     Parameters
     ----------
     plant : Plant
-        What is controlled; its parameters become those of the block.
+        What is controlled; its parameters become those of the block. The set point x* is folded into the C, since u*(p) holds
+        that one and no other: a set point that moves is a reference of the exosystem.
     gain : Gain, or (acting inputs, n) array
         K, folded into the C; A - B K has to be stable at the nominal parameters. It does not follow the parameters.
     regulator : ParametricRegulator
@@ -94,7 +95,9 @@ def retunable_feedback(
     taken, generated, stored = _declare(block, plant, regulator, places, acting)
     hold = _held(plant, regulator, acting)
     init = _init(block, plant, regulator, maps, places, hold)
-    wanted = {symbol.signal.name: symbol for symbol in block.param_symbols()}
+    # x* is folded: u*(p) is that of this set point, and of no other
+    at = np.asarray(ca.DM(regulator.states), dtype=float).ravel()
+    set_point: dict[str, Any] = {state.signal.name: ca.SX(ca.DM(at[state.at])) for state in plant.states}
     w, n = ca.vertcat(ca.SX(0, 1), *generated), plant.error_size
     filled = {}
     for what, rows in (("state_map", n), ("input_map", shape[0])):
@@ -102,7 +105,7 @@ def retunable_feedback(
         for k, (i, j) in enumerate(places[what]):
             filled[what][i, j] = ca.SX(stored[what])[k]
     change = filled["input_map"] @ w - ca.SX(ca.sparsify(ca.DM(K))) @ (
-        deviation_from(plant, taken, wanted) - filled["state_map"] @ w
+        deviation_from(plant, taken, set_point) - filled["state_map"] @ w
     )
     outputs, start = {}, 0
     for signal in acting:
@@ -119,7 +122,7 @@ def retunable_feedback(
         doc="The command for a state of the plant and of the exosystem.",
     )
     block.sample_time = rate
-    block.source_hash = plant.fingerprint() + repr(K.tolist())
+    block.source_hash = plant.fingerprint() + repr((K.tolist(), at.tolist()))
     block.oracle = _oracle(block, plant, regulator, K, places, acting, generated, saturate)
     block.scenario = _scenario(plant, regulator, K, places, acting, generated)
     return block
@@ -154,18 +157,6 @@ def _declare(
         block.input(f"w_{signal}", size=len(columns), doc=f"state of the generator of {signal}")
         for signal, columns in signal_groups(regulator.nominal.exosystem)
     ]
-    at, start = np.asarray(ca.DM(regulator.states)).ravel(), 0
-    for state in plant.states:
-        signal = state.signal
-        ends = (signal.low, signal.high)
-        block.parameter(
-            signal.name,
-            at[start : start + signal.size],
-            unit=signal.unit,
-            range=ends,
-            doc=f"set point of {signal.name}",
-        )
-        start += signal.size
     for symbol in plant.parameters:
         block.param_signals.append(symbol.signal)
     low, high = (tuple(item for signal in acting for item in getattr(signal, end)) for end in ("low", "high"))
@@ -258,6 +249,7 @@ def _oracle(
         kind: solution.exosystem.output[[solution.exosystem.signals.index(name) for name in names]][:, order]
         for kind, names in (("out", solution.model.outputs), ("dis", solution.model.disturbances))
     }
+    at = np.asarray(ca.DM(regulator.states), dtype=float).ravel()
     names = [symbol.signal.name for symbol in plant.inputs for _ in range(symbol.signal.size)]
     away = {*solution.model.disturbances}
     nominal_u = np.asarray(ca.Function("u", [p], [ca.densify(regulator.inputs)])(_defaults(plant)), dtype=float).ravel()
@@ -273,7 +265,7 @@ def _oracle(
         places["state_map"],
         places["input_map"],
         saturate,
-        {"gain": K.ravel()},
+        {"gain": K.ravel(), **{state.signal.name: at[state.at] for state in plant.states}},
     )
     return RetunedRegulator(
         law=law,
@@ -281,7 +273,7 @@ def _oracle(
         discrete=plant.is_discrete,
         outputs=numpy_callable(ca.Function("outputs", [x, u, p], [ca.densify(outputs)])),
         pivots=numpy_callable(ca.Function("pivots", [p], [ca.densify(judged)])),
-        x=np.asarray(ca.DM(regulator.states), dtype=float).ravel(),
+        x=at,
         u=nominal_u,
         acting=tuple(k for k, name in enumerate(names) if name not in away),
         away=tuple(k for k, name in enumerate(names) if name in away),

@@ -308,8 +308,9 @@ def high_gain_exosystem(
     """
     channels = _channels(name, exosystem, coefficients)
     assert exosystem.dt is not None
-    if not (math.isfinite(epsilon) and epsilon > 0):
+    if not (isinstance(epsilon, (int, float)) and math.isfinite(epsilon) and epsilon > 0):
         raise ModelError(f"{name}: epsilon is {epsilon!r}; give a positive number of seconds")
+    _check_given(name, exosystem, initial or {}, ranges or {}, channels[0][1])
     S, gains = high_gain_matrices(channels[0][1], coefficients, epsilon, exosystem.dt)
     deadbeat = is_nilpotent(S)
     radius = 0.0 if deadbeat else float(np.max(np.abs(np.linalg.eigvals(S))))
@@ -337,6 +338,25 @@ def high_gain_exosystem(
     coasting[:, 0] += gains
     _finish_high_gain(block, [(signal, coasting, gains) for signal, _ in channels], ranges or {})
     return _observes(block, exosystem)
+
+
+def _check_given(
+    name: str,
+    exosystem: Exosystem,
+    initial: Mapping[str, Sequence[float]],
+    ranges: Mapping[str, tuple[float, float]],
+    order: int,
+) -> None:
+    """Refuse what is given for a signal that there is not, or of another size."""
+    for what, given, size in (("initial", initial, order), ("ranges", ranges, 2)):
+        unknown = sorted(set(given) - set(exosystem.signals))
+        if unknown:
+            raise ModelError(
+                f"{name}: {what} names {', '.join(unknown)}, and the signals are {', '.join(exosystem.signals)}"
+            )
+        for signal, values in given.items():
+            if np.shape(values) != (size,):
+                raise ModelError(f"{name}: {what} of {signal!r} is {values!r}; give {size} numbers")
 
 
 def _channels(name: str, exosystem: Exosystem, coefficients: Sequence[float]) -> list[tuple[str, int]]:

@@ -94,3 +94,12 @@ def test_composition_is_block_diagonal():
 def test_sentences(make, says):
     with pytest.raises(ModelError, match=says):
         make()
+
+
+@pytest.mark.parametrize("given", [[[1, 2]], [[1, 2], [3, 4], [5, 6]], 1.0, [[1, 2], {"a": 1}]])
+def test_initial_values_of_a_sum_that_do_not_fit_are_a_sentence(given):
+    both = superpose([harmonic("x", 1.0), harmonic("x", 2.0)])
+    with pytest.raises(
+        ModelError, match=r"w_0 (of 'x' )?is .*; (the signal is a sum of 2 parts|give at most 2 finite)"
+    ):
+        both.initial({"x": given})

@@ -98,3 +98,33 @@ def test_in_a_whole_regulator(parts):
     view = InterpretView(whole)
     light, heavy = (view.init(view.params(feedback__mass=mass))["feedback"]["hold"] for mass in (1.0, 2.0))
     assert float(heavy / light) == pytest.approx(np.sqrt(2), rel=1e-9)
+
+
+def test_the_set_point_is_that_of_the_equations_and_no_parameter(parts):
+    """u*(p) holds one set point: one that could be moved by itself would leave an error."""
+    plant, _, regulator, gain = parts
+    block = retunable_feedback(plant, gain, regulator)
+    assert {signal.name for signal in block.param_signals} == {"mass", "drag"}
+    at = trim(plant, hold={"height": 5, "wind": 0})
+    moved = parametric_francis(plant, at, regulator.nominal.exosystem)
+    for kind in (InterpretView, ReferenceView):
+        view = kind(retunable_feedback(plant, gain, moved))
+        params = view.params()
+        inputs = {"height": 5.0, "climb": 0.0, "w_height": [0.0, 0.0, 0.0], "w_wind": [0.0]}
+        answer = view.call("step", view.init(params), view.inputs("step", inputs), params)
+        assert float(answer.outputs["rotor"]) == pytest.approx(at["rotor"], rel=1e-9)
+        inputs["height"] = 4.0
+        answer = view.call("step", view.init(params), view.inputs("step", inputs), params)
+        assert float(answer.outputs["rotor"]) == pytest.approx(at["rotor"] + gain.rounded()[0, 0], rel=1e-9)
+
+
+def test_the_gain_is_judged_at_the_rate_of_a_continuous_plant():
+    plant = Plant("cart")
+    x, v = plant.state("x", range=(-100, 100)), plant.state("v", range=(-100, 100))
+    u, mass = plant.input("u", range=(-1e4, 1e4)), plant.parameter("mass", 1.0, range=(0.5, 2))
+    plant.dynamics({x: v, v: u / mass - 0.3 * v})
+    regulator = parametric_francis(plant, trim(plant, hold={"x": 0}), constant("x"))
+    gain = lqr(linearise(plant), Q=[1e4, 10], R=1)
+    assert retunable_feedback(plant, gain, regulator, dt=0.02).sample_time == 0.02
+    with pytest.raises(RegulatorError, match="A - B K has spectral radius"):
+        retunable_feedback(plant, gain, regulator, dt=0.5)
