@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import inspect
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ..symbolic.block import Block
-from . import proof
+from . import exported, proof
 from .emit import CText
 from .exported import run_tool, tool
 from .proof import EFFORTS, OPTIONS, Task, proof_source, proof_tasks, prove
@@ -36,6 +37,9 @@ class Proved:
     seconds: float
 
 
+JUDGES: tuple[Any, ...] = (proof.analyse, proof.prove_task, proof.Property, exported.run_tool)
+"""What calls the analyser and judges its answer; what makes the harness is seen in the harness."""
+
 Record = Mapping[str, Mapping[str, Proved]]
 """Block -> function -> proof."""
 
@@ -55,12 +59,12 @@ def analyser() -> str:
 def digest_of(block: Block, text: CText, task: Task) -> str:
     """Return the digest of all that the proof of a function rests on.
 
-    That is the C and the harness that the analyser reads, what is asked of it, its version, and the whole of the module
-    that makes the harness and judges the answer.
+    That is the C and the harness that the analyser reads, what is asked of it, its version, and the Python that calls it
+    and judges its answer.
     """
     parts = [
         *(text.header, proof_source(block, text, task), str(task.assertions), task.effort),
-        *(str(OPTIONS), str(EFFORTS), analyser(), Path(proof.__file__).read_text()),
+        *(str(OPTIONS), str(EFFORTS), analyser(), *map(inspect.getsource, JUDGES)),
     ]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()
 

@@ -48,10 +48,12 @@ def test_other_c_is_not_on_record(needs, part):
     assert set(not_on_record(pendulum_ekf, changed, RECORD)) == set(RECORD["pendulum_ekf"])
 
 
-@pytest.mark.parametrize("name", ["analyser", "OPTIONS"])
-def test_what_another_analyser_proved_is_not_on_record(needs, monkeypatch, name):
+@pytest.mark.parametrize(
+    ("name", "other"),
+    [("analyser", lambda: "24.0"), ("OPTIONS", ["-eva"]), ("EFFORTS", {}), ("JUDGES", proof_record.JUDGES[1:])],
+)
+def test_what_another_analyser_proved_is_not_on_record(needs, monkeypatch, name, other):
     needs("frama-c")
-    other = (lambda: "24.0") if name == "analyser" else ["-eva"]
     monkeypatch.setattr(proof_record, name, other)
     assert set(not_on_record(pendulum_ekf, PENDULUM, RECORD)) == set(RECORD["pendulum_ekf"])
 
