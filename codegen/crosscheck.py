@@ -39,8 +39,8 @@ IMPLAUSIBLE = ("adversarial", "crafted")
 LARGEST_GROWTH = 10.0
 """A difference is excused up to this many times what one unit in the last place of memory and inputs causes."""
 
-LARGEST_AT_SWITCH = 1.0
-"""An implausible call whose neighbours are all refused may differ by this much: in sigma, or of its own magnitude."""
+LARGEST_AT_SWITCH = 10.0
+"""An implausible call that only rounding accepts may differ by this much: in sigma, or of its own magnitude."""
 
 LARGEST_SHARE_ILL_CONDITIONED = 0.05
 LEAST_SHARE_ACCEPTED = {True: 0.95, False: 0.5}

@@ -334,6 +334,7 @@ def test_what_cannot_be_bounded_says_why(target, tmp_path, needs):
     assert isinstance(analysis.stack("fixed"), int)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("precision", ["double", "float"])
 @pytest.mark.parametrize("target", ["host", *CROSS])
 def test_frames_are_those_that_the_compiler_states(target, precision, tmp_path, needs):

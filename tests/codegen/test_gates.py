@@ -62,6 +62,7 @@ def found_in(text, machine, folder, needs, plainly=True):
     return [item.name.removesuffix(f" ({machine})") for item in results if not item.passed]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("machine", MACHINES)
 @pytest.mark.parametrize("precision", ["double", "float"])
 @pytest.mark.parametrize("block", [pendulum_ekf, attitude_ekf], ids=lambda block: block.name)

@@ -634,6 +634,7 @@ def bare(name):
     return block
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("precision", ["double", "float"])
 @pytest.mark.parametrize("name", LACKING)
 def test_a_block_that_lacks_something_is_exported_and_its_vectors_can_fail(name, precision, tmp_path):

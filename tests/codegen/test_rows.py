@@ -32,6 +32,7 @@ def uses_pairs(block):
     return any(isinstance(item, AllStatesUpdate) for item in walk(block.entries["update_all"].body))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("precision", ["double", "float"])
 @pytest.mark.parametrize("n", [4, 6, 8])
 def test_all_views_agree(n, precision):

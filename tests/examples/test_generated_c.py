@@ -18,6 +18,7 @@ BY_C_ALONE = {"quadrotor_kf_controller", "quadrotor_ekf_controller"}
 WHOLE = [(block, precision) for block, precision in EXAMPLES if block.name not in BY_C_ALONE]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("block", "precision"), WHOLE, ids=[f"{block.name}-{precision}" for block, precision in WHOLE])
 def test_regenerating_gives_the_same_bytes(block, precision):
     files = build_files(block, precision)

@@ -25,6 +25,7 @@ def one_object(said):
     return answer
 
 
+@pytest.mark.slow
 def test_a_good_folder(folder, plantc, needs):
     needs("cppcheck", "gcc")
     said = plantc("audit", "pendulum_ekf", "--only", "misra", "--only", "sanitizers", "--calls", 20000, "--json")

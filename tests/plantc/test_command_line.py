@@ -353,6 +353,7 @@ def test_export_says_that_there_is_no_independent_reference(model, plantc):
     assert "\x1b" not in said.err
 
 
+@pytest.mark.slow
 def test_export_of_a_filter_in_float(model, plantc, tmp_path):
     said = plantc("export", f"{model(PENDULUM)}:pendulum_ekf", *FAST, "--precision", "float", "--out", "deep/down")
     assert said.status == 0, said.err
@@ -555,6 +556,7 @@ def test_check_of_no_folder(exported, plantc, tmp_path):
 # -- designed numbers -------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_designed_numbers_are_written_once_then_read(model, plantc, tmp_path):
     name, design = model(CART), tmp_path / "design.json"
     said = plantc("export", name, *FAST)
@@ -578,6 +580,7 @@ def test_designed_numbers_are_written_once_then_read(model, plantc, tmp_path):
     fails(said, 1, "design: residual of the gain equation")
 
 
+@pytest.mark.slow
 def test_designed_numbers_of_another_model_stop_the_export(model, plantc, tmp_path):
     assert plantc("export", model(CART), *FAST).status == 0
     before = (tmp_path / "design.json").read_bytes()

@@ -143,6 +143,7 @@ def test_the_measurement_update_is_that_of_a_textbook(size, seed):
 # -- filters ----------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("precision", PRECISIONS)
 @pytest.mark.parametrize("form", ["joseph", "ud"])
 @pytest.mark.parametrize(
