@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from plantc.examples.quadrotor_controllers import printed_gain
 from plantc.examples.quadrotor_ekf import sampled, set_point
 from scipy.signal import place_poles
 
@@ -19,22 +20,7 @@ CHAINS = {
     "pitch": (["x", "vx", "pitch", "pitch_rate"], [0.84, 0.88, 0.92, 0.95]),
     "yaw": (["yaw", "yaw_rate"], [0.89, 0.90]),
 }
-F44 = np.array(
-    [
-        [-25.0, 411.0, -8.9, 399.0],
-        [-4.3, 333.0, 13.0, 311.0],
-        [-311.0, -20.0, -322.0, -32.0],
-        [-277.0, -22.0, -299.0, -37.0],
-        [199.0, 200.0, 199.0, 200.0],
-        [93.0, 95.0, 93.0, 95.0],
-        [711.0, 59.0, 766.0, 122.0],
-        [56.0, 2.9, 67.0, 14.0],
-        [28.0, 844.0, 97.0, 766.0],
-        [3.4, 71.0, 15.0, 58.0],
-        [177.0, -188.0, 177.0, -188.0],
-        [74.0, -76.0, 74.0, -76.0],
-    ]
-)
+F44 = printed_gain.T  # 12 x 4, as eq. 44 prints it
 U1 = [
     -7.333508790, -8.632150971, 10.054928067, 10.592050293, 170.001173807, 91.072057397, -39.167489827, -6.293729681,
     -34.893608277, -6.000998068, 133.509901438, 63.720634777,
