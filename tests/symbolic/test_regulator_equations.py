@@ -1,5 +1,9 @@
 """The regulator equations against specs/output_regulation.md, sections 2, 3, 4, 6, 9, 11 and 14."""
 
+import ast
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 from plantc.symbolic import regulator_equations
@@ -106,6 +110,7 @@ def test_the_printed_solution_of_degree_2():
 
 
 def test_the_printed_solution_of_degree_6():
+    """Section 14, item 5, too: S and A have all their eigenvalues, ones, in common."""
     found = both(quadrotor().sampled(T, "euler"), chains(6).sampled(T, "euler"))
     assert found.rank == 448
     for mine, formula in zip((found.state_map, found.input_map), flat(6), strict=True):
@@ -337,6 +342,7 @@ def test_a_disturbance_that_enters_the_output_too():
 
 
 def test_a_plant_by_the_names_of_its_signals():
+    """Section 14, item 8, too: the time base is said once and kept with the data."""
     cart = Plant("cart")
     position, speed = cart.state("position", unit="m"), cart.state("speed", unit="m/s")
     force, slope = cart.input("force", unit="N"), cart.input("slope", unit="rad", range=(-1, 1))
@@ -365,7 +371,22 @@ def test_a_plant_by_the_names_of_its_signals():
 # -- section 14 -------------------------------------------------------------------------------------------------------
 
 
+def test_every_edge_case_has_a_test():
+    """Items of section 14 stand in the docstrings of the tests that are of them; the list is the specification's."""
+    named: dict[int, list[str]] = {number: [] for number in range(1, 15)}
+    for path in sorted(Path(__file__).parents[1].glob("*/test_*.py")):
+        text = path.read_text()
+        for node in ast.walk(ast.parse(text)) if "ection 14, item" in text else ():
+            said = ast.get_docstring(node) or "" if isinstance(node, ast.FunctionDef) else ""
+            if isinstance(node, ast.FunctionDef) and node.name.startswith("test_"):
+                for items in re.findall(r"[Ss]ection 14, items? (\d+(?: and \d+)*)", said):
+                    for number in re.findall(r"\d+", items):
+                        named[int(number)].append(node.name)
+    assert [number for number, tests in named.items() if not tests] == []
+
+
 def test_no_exosystem_and_no_reference():
+    """Section 14, items 1 and 2: r = 0 gives empty maps, m = 0 the maps of least norm."""
     plant = linear_model(*ZEROS)
     nothing = francis(plant, compose([]))
     assert nothing.state_map.shape == (3, 0) and nothing.input_map.shape == (1, 0) and nothing.residual == 0
@@ -391,11 +412,13 @@ def test_no_exosystem_and_no_reference():
     ],
 )
 def test_sentences(make, says):
+    """Section 14, items 3 and 4: shapes that do not match are named, and what is not finite is refused."""
     with pytest.raises(ModelError, match=says):
         make()
 
 
 def test_decaying_and_growing_modes_are_said():
+    """Section 14, item 7: the equations of modes that decay are valid, and following them is no achievement."""
     plant = linear_model(*ZEROS).sampled(T)
     found = francis(plant, exosystem([[0.9]], [[1]], ("y_0",), dt=T))
     assert any("the exosystem decays at 0.9" in item for item in found.warnings)
@@ -410,6 +433,7 @@ def test_transmission_zeros():
 
 
 def test_a_gain_that_does_not_stabilise_is_refused():
+    """Section 14, item 6: with the spectral radius, or the largest real part."""
     plant = quadrotor().sampled(T, "euler")
     P = solve_discrete_are(plant.A, plant.B, 100 * np.eye(12), np.eye(4))
     K = np.linalg.solve(np.eye(4) + plant.B.T @ P @ plant.B, plant.B.T @ P @ plant.A)
