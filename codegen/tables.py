@@ -62,16 +62,13 @@ def table_of(arguments: Sequence[Any]) -> Table:
 class Tables:
     """The tables of one C file, numbered as they are met, and which functions on them it calls."""
 
-    numbers: dict[Table, int] = field(default_factory=dict)
-    functions: set[str] = field(default_factory=set)
+    uses: dict[Table, set[str]] = field(default_factory=dict)
 
-    def call(self, root: str, operation: str, table: Table, x: str, precision: Precision) -> str:
+    def call(self, root: str, operation: str, table: Table, x: str) -> str:
         """Return the C of a look-up, or of the slope there."""
-        number = self.numbers.setdefault(table, len(self.numbers) + 1)
-        function = f"{operation}_even" if table.per_unit else operation
-        self.functions.add(function)
-        even = f"{precision.literal(table.per_unit)}, " if table.per_unit else ""
-        return f"{root}_math_{function}({root}_table_{number}, {table.last}U, {even}{x})"
+        self.uses.setdefault(table, set()).add(operation)
+        end = "_slope" if operation == "look_up_slope" else ""
+        return f"{root}_math_table_{list(self.uses).index(table) + 1}{end}({x})"
 
     def text(self, root: str, precision: Precision) -> str:
         """Return the C: arrays and functions; nothing where there is no table.
@@ -83,37 +80,44 @@ class Tables:
         """
         from .emit import templates
 
-        if not self.numbers:
+        if not self.uses:
             return ""
-        for table in self.numbers:
-            rounded = [precision.dtype(item) for item in table.at]
-            for k in range(table.last):
-                if not rounded[k] < rounded[k + 1]:
-                    raise ModelError(
-                        f"{root}: the breakpoints {table.at[k]!r} and {table.at[k + 1]!r} of a table are one number in "
-                        f"{precision.name}; move them apart, or export in double"
-                    )
-        made = [
-            (
-                f"{root}_table_{number}",
-                f"Table {number}: {len(table.at)} points over {table.at[0]:.12g} .. {table.at[-1]:.12g}.",
-                list(zip(table.at, table.values, table.slopes, strict=True)),
-            )
-            for table, number in self.numbers.items()
-        ]
-        uneven = [table for table in self.numbers if not table.per_unit]
+        for table in self.uses:
+            _check(root, table, precision)
+        uneven = [table for table in self.uses if not table.per_unit]
         context: dict[str, Any] = {
             "p": root,
             "real": precision.name,
             "c": precision.literal,
-            "tables": made,
-            "even": len(uneven) < len(self.numbers),
+            "tables": [
+                {
+                    "number": number,
+                    "sentence": f"{len(table.at)} points over {table.at[0]:.12g} .. {table.at[-1]:.12g}",
+                    "points": list(zip(table.at, table.values, table.slopes, strict=True)),
+                    "per_unit": table.per_unit,
+                    "uses": uses,
+                }
+                for number, (table, uses) in enumerate(self.uses.items(), start=1)
+            ],
+            "even": len(uneven) < len(self.uses),
             "uneven": bool(uneven),
             "turns": max((table.last for table in uneven), default=1).bit_length(),
-            "needed": self.functions.__contains__,
+            "needed": {
+                use + ("_even" if table.per_unit else "") for table, uses in self.uses.items() for use in uses
+            }.__contains__,
         }
         text = templates().get_template("look_up.c.j2").render(**context)
         return "\n".join(line for long in text.split("\n") for line in _narrow(long))
+
+
+def _check(root: str, table: Table, precision: Precision) -> None:
+    rounded = [precision.dtype(item) for item in table.at]
+    for k in range(table.last):
+        if not rounded[k] < rounded[k + 1]:
+            raise ModelError(
+                f"{root}: the breakpoints {table.at[k]!r} and {table.at[k + 1]!r} of a table are one number in "
+                f"{precision.name}; move them apart, or export in double"
+            )
 
 
 def _narrow(line: str) -> list[str]:

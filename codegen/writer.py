@@ -109,9 +109,7 @@ def has_outputs(entry: Entry) -> bool:
 class CoreWriter:
     """Writes the core of one entry."""
 
-    def __init__(
-        self, block: Block, entry: Entry, prefix: str, style: Style, root: str, tables: Tables | None = None
-    ):
+    def __init__(self, block: Block, entry: Entry, prefix: str, style: Style, root: str, tables: Tables | None = None):
         self.block, self.entry, self.prefix, self.style, self.root = block, entry, prefix, style, root
         self.tables = Tables() if tables is None else tables
         self.precision = style.precision
@@ -809,7 +807,7 @@ class CoreWriter:
         if node.operation in TABLES:
             self.operations[node.operation] += 1
             x = self._expression(node.arguments[0], uses)
-            return self.tables.call(self.root, node.operation, table_of(node.arguments), x, self.precision)
+            return self.tables.call(self.root, node.operation, table_of(node.arguments), x)
         parts = [self._expression(item, uses) for item in node.arguments]
         wrapped = [f"({text})" if _is_compound(text) else text for text in parts]
         operation = node.operation

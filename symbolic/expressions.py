@@ -6,6 +6,7 @@ the order of a depth-first walk from the outputs, so that CasADi's own numbering
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -161,8 +162,10 @@ def _called(function: ca.Function) -> list[ca.Function]:
 
 def _inside(called: ca.Function) -> ca.Function | None:
     """Return a called function as scalar operations, or None if they are not seen."""
-    try:
-        return called if called.is_a("SXFunction") else called.expand()
+    if called.is_a("SXFunction"):
+        return called
+    try:  # any other kind would be expanded to a call of itself
+        return called.expand() if called.is_a("MXFunction") else None
     except RuntimeError:
         return None
 
@@ -390,16 +393,10 @@ _INFIX_NUMPY = {
 Array = NDArray[Any]
 
 
-def numpy_callable(function: ca.Function) -> Callable[..., tuple[Array, ...]]:
-    """Lower an SX function to a NumPy callable, for an oracle that must not know CasADi.
-
-    The callable takes one array for each argument, of shape (n,) or (n, k): k evaluations at once. It accepts complex
-    numbers (for derivatives by complex step) and keeps single precision. It returns dense arrays of shape
-    (rows, k), or (rows, columns, k) for matrix outputs; without the last axis if no argument had it.
-    """
-    record = tape(function)
+def _lowered(steps: Sequence[Step], outputs: Sequence[Sequence[int]], name: str) -> Callable[..., Any]:
+    """Return a function of arrays that gives tuples of steps."""
     lines = ["def lowered(*a):"]
-    for index, step in enumerate(record.steps):
+    for index, step in enumerate(steps):
         if step.operation == "input":
             text = f"a[{step.place[0]}][{step.place[1]}]"
         elif step.operation == "const":
@@ -409,11 +406,22 @@ def numpy_callable(function: ca.Function) -> Callable[..., tuple[Array, ...]]:
             pattern = _INFIX_NUMPY.get(step.operation)
             text = pattern.format(*names) if pattern else f"_{step.operation}({', '.join(names)})"
         lines.append(f"    t{index} = {text}")
-    results = ", ".join("(" + "".join(f"t{item}, " for item in output) + ")" for output in record.outputs)
+    results = ", ".join("(" + "".join(f"t{item}, " for item in output) + ")" for output in outputs)
     lines.append(f"    return ({results},)")
     space: dict[str, Any] = {**_NUMPY, "__name__": __name__}
-    exec(compile("\n".join(lines), f"<{function.name()} in NumPy>", "exec"), space)
-    lowered = space["lowered"]
+    exec(compile("\n".join(lines), f"<{name} in NumPy>", "exec"), space)
+    return space["lowered"]  # type: ignore[no-any-return]
+
+
+def numpy_callable(function: ca.Function) -> Callable[..., tuple[Array, ...]]:
+    """Lower an SX function to a NumPy callable, for an oracle that must not know CasADi.
+
+    The callable takes one array for each argument, of shape (n,) or (n, k): k evaluations at once. It accepts complex
+    numbers (for derivatives by complex step) and keeps single precision. It returns dense arrays of shape
+    (rows, k), or (rows, columns, k) for matrix outputs; without the last axis if no argument had it.
+    """
+    record = tape(function)
+    lowered = _lowered(record.steps, record.outputs, function.name())
     shapes = [function.size_out(index) for index in range(function.n_out())]
     places = [
         (function.sparsity_out(index).row(), function.sparsity_out(index).get_col())
@@ -437,6 +445,94 @@ def numpy_callable(function: ca.Function) -> Callable[..., tuple[Array, ...]]:
         return tuple(answers)
 
     return evaluate
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Pieces
+
+MOST_PIECES = 16
+"""Pieces of one table that are told apart; of a longer one, neighbours count as one."""
+
+
+@dataclass(frozen=True)
+class PieceStep:
+    """A piecewise function on a tape.
+
+    Attributes
+    ----------
+    operation : str
+        Which.
+    number : int
+        Its number among those of the tape.
+    depends : tuple of (argument, element)
+        The inputs that its first argument depends on.
+    """
+
+    operation: str
+    number: int
+    depends: tuple[tuple[int, int], ...]
+
+    def piece(self, arguments: Sequence[float]) -> str:
+        """Return in words on which piece its arguments are; empty for NaN."""
+        x = arguments[0]
+        if any(math.isnan(item) for item in arguments):
+            return ""
+        kinks = self.kinks(arguments)
+        if self.operation in TABLES and len(kinks) > MOST_PIECES:
+            k = int(np.searchsorted(kinks, x, side="right"))
+            return f"{self.operation} {self.number}: piece {-(-k * MOST_PIECES // len(kinks))}"
+        k = int(np.searchsorted(kinks, x, side="left"))
+        on_it = k < len(kinks) and kinks[k] == x
+        return f"{self.operation} {self.number}: {'kink' if on_it else 'piece'} {k}"
+
+    def kinks(self, arguments: Sequence[float]) -> list[float]:
+        """Return where its first argument meets kinks, rising."""
+        rest = arguments[1:]
+        return list(rest[: len(rest) // 2] if self.operation in TABLES else rest)
+
+
+class Pieces:
+    """Tells on which pieces of its piecewise functions a function is evaluated.
+
+    Parameters
+    ----------
+    function : casadi.Function
+        An SX function.
+    """
+
+    def __init__(self, function: ca.Function):
+        record = tape(function)
+        found: dict[tuple[int, ...], int] = {}
+        for k, step in enumerate(record.steps):
+            if step.operation in PIECEWISE:
+                found.setdefault(step.arguments, k)  # a table and its slope at one place count once
+        self.steps = [
+            PieceStep(record.steps[k].operation, number, _inputs_of(record.steps, record.steps[k].arguments[0]))
+            for number, k in enumerate(found.values(), start=1)
+        ]
+        self._arguments = _lowered(record.steps, list(found), function.name()) if found else None
+
+    def arguments(self, *given: Array) -> list[list[float]]:
+        """Return what each piecewise function is called with, in the precision of what is given."""
+        if self._arguments is None:
+            return []
+        with np.errstate(all="ignore"):
+            return [[float(item) for item in one] for one in self._arguments(*given)]
+
+    def met(self, *given: Array) -> list[str]:
+        """Return the pieces in words."""
+        answers = self.arguments(*given)
+        return [text for step, one in zip(self.steps, answers, strict=True) if (text := step.piece(one))]
+
+
+def _inputs_of(steps: Sequence[Step], root: int) -> tuple[tuple[int, int], ...]:
+    waiting, seen = [root], {root}
+    while waiting:
+        for item in steps[waiting.pop()].arguments:
+            if item not in seen:
+                seen.add(item)
+                waiting.append(item)
+    return tuple(sorted(steps[item].place for item in seen if steps[item].operation == "input"))
 
 
 # ---------------------------------------------------------------------------------------------------------------------

@@ -32,7 +32,7 @@ def _call_node(
         [*names, "out_result"],
         [f"jac_result_{item}" for item in names],
     )
-    options = {
+    options: dict[str, Any] = {
         "never_inline": True, "custom_jacobian": derivative, "jac_penalty": 0, "enable_forward": False,
         "enable_reverse": False,
     }  # fmt: skip
@@ -44,9 +44,7 @@ def _saturation_node() -> ca.Function:
     x, low, high = ca.SX.sym("x"), ca.SX.sym("low"), ca.SX.sym("high")
     raised = ca.if_else(x < low, low, x)
     value = ca.if_else(high < raised, high, raised)
-    inside = ca.if_else(
-        ca.logic_and(low < x, x < high), 1.0, ca.if_else(ca.logic_and(low <= x, x <= high), 0.5, 0.0)
-    )
+    inside = ca.if_else(ca.logic_and(low < x, x < high), 1.0, ca.if_else(ca.logic_and(low <= x, x <= high), 0.5, 0.0))
     below = ca.if_else(x < low, 1.0, ca.if_else(x <= low, 0.5, 0.0))
     above = ca.if_else(high < x, 1.0, ca.if_else(high <= x, 0.5, 0.0))
     return _call_node("saturation", [x, low, high], value, [inside, below, above], ["x", "low", "high"])
@@ -120,9 +118,11 @@ def saturated(x: Any, low: Any, high: Any) -> ca.SX:
 
     Examples
     --------
-    >>> from casadi import SX, jacobian
+    >>> from casadi import SX, Function, jacobian
     >>> x = SX.sym("x")
     >>> y = saturated(10 * x, -1, 1)
+    >>> Function("both", [x], [y, jacobian(y, x)])(0.1)
+    (DM(1), DM(5))
     """
     ends = [_expression("saturated", item) for item in (low, high)]
     if all(item.is_constant() for item in ends):
@@ -237,9 +237,11 @@ def look_up(x: Any, breakpoints: Any, values: Any) -> ca.SX:
 
     Examples
     --------
-    >>> from casadi import SX
+    >>> from casadi import SX, Function, jacobian
     >>> x = SX.sym("x")
     >>> drag = look_up(x, [0, 1, 3], [0.0, 0.4, 2.0])
+    >>> Function("both", [x], [drag, jacobian(drag, x)])(1)
+    (DM(0.4), DM(0.6))
     """
     at, of = _numbers("breakpoints", breakpoints), _numbers("values", values)
     if len(at) != len(of):
@@ -252,12 +254,14 @@ def look_up(x: Any, breakpoints: Any, values: Any) -> ca.SX:
                 f"look_up: breakpoint {k + 1} is {at[k + 1]:g}, and the one before it {at[k]:g}; give them strictly "
                 "increasing"
             )
-        if not np.isfinite((of[k + 1] - of[k]) / (at[k + 1] - at[k])):
+        with np.errstate(over="ignore"):
+            steepness = (of[k + 1] - of[k]) / (at[k + 1] - at[k])
+        if not np.isfinite(steepness):
             raise ModelError(
                 f"look_up: the slope between the breakpoints {at[k]:g} and {at[k + 1]:g} is not finite; move them apart"
             )
     node = _look_up_node(len(at))
-    return _mapped(lambda item: node(item, ca.DM(at), ca.DM(of)), _expression("look_up", x))
+    return _mapped(lambda item: ca.SX(node(item, ca.SX(ca.DM(at)), ca.SX(ca.DM(of)))), _expression("look_up", x))
 
 
 def _numbers(what: str, given: Any) -> np.ndarray[Any, np.dtype[np.float64]]:

@@ -146,6 +146,7 @@ DOCTESTED = [
     "plantc.symbolic.composition",
     "plantc.symbolic.controllers",
     "plantc.symbolic.design",
+    "plantc.symbolic.piecewise",
     "plantc.symbolic.power_series",
     "plantc.symbolic.regulator_equations",
     "plantc.symbolic.regulator_map",
