@@ -16,7 +16,7 @@ import jinja2
 from ..symbolic.block import Block
 from ..symbolic.errors import ModelError
 from ..symbolic.kernels import AllStatesUpdate
-from ..symbolic.program import Entry, HoldFactors, HoldVariances, walk
+from ..symbolic.program import Call, Entry, HoldFactors, HoldVariances, walk
 from ..symbolic.signals import STATUS_TEXT, Kind, Signal, Status
 from .layout import default_text, struct_lines
 from .mathematics import CHOICES, OWN, mathematics_note, mathematics_text
@@ -202,8 +202,8 @@ class _Emitter:
                 "The memory. Copy it, save it, put it where you like.",
             )
         )
-        for entry in block.entries.values():
-            if entry.inputs:
+        for entry in self._written(block):
+            if entry.inputs and block is self.block:  # cores of parts take single arguments
                 texts.append(self._struct(f"{prefix}_{entry.name}_in_t", entry.inputs, {}, ""))
             if entry.outputs:
                 texts.append(
@@ -217,10 +217,7 @@ class _Emitter:
         """Return names for the structs of a part that is the same Block as one before it."""
         own, first, inner = f"{prefix}_{part}", f"{prefix}_{block.twin(part)}", block.parts[part]
         ends = ["params_t"] if inner.param_group().members else []
-        ends.append("state_t")
-        for entry in inner.entries.values():
-            ends += [f"{entry.name}_in_t"] if entry.inputs else []
-            ends += [f"{entry.name}_out_t"] if entry.outputs else []
+        ends += ["state_t"] + (["step_out_t"] if inner.entries["step"].outputs else [])
         lines = comment_lines(
             f"{part} is the same block as {block.twin(part)}, with a memory and parameters of its own.", ""
         )
@@ -286,6 +283,13 @@ class _Emitter:
 
     # -- source -------------------------------------------------------------------------------------------------------
 
+    def _written(self, block: Block) -> list[Entry]:
+        """Return the entries of which there is C: all of the block's own, and of a part what its `step` needs."""
+        if block is self.block:
+            return list(block.entries.values())
+        needed = {"init", "step"} | {item.entry for item in walk(block.entries["step"].body) if isinstance(item, Call)}
+        return [entry for entry in block.entries.values() if entry.name in needed]
+
     def _cores(self, block: Block, prefix: str) -> list[str]:
         lines: list[str] = []
         for name, part in block.parts.items():
@@ -312,12 +316,7 @@ class _Emitter:
         )
         if whole is not None:
             lines += pair_helpers(prefix, self.precision, whole.rows[0].size)
-        if block is not self.block:
-            used = {"init", "step"}
-            used |= {call.entry for item in walk(block.entries["step"].body) if (call := _call_of(item))}
-        for entry in _calls_first(list(block.entries.values())):
-            if block is not self.block and entry.name not in used:
-                continue
+        for entry in _calls_first(self._written(block)):
             written = CoreWriter(block, entry, prefix, self.style, self.name, self.tables).write()
             self.used |= written.functions
             self.own |= written.own
@@ -397,12 +396,6 @@ class _Emitter:
         return [
             *text.rstrip("\n").split("\n"), *bounded_helper(prefix, self.precision, hold.layout, hold.floor, limits)
         ]  # fmt: skip
-
-
-def _call_of(item: Any) -> Any:
-    from ..symbolic.program import Call
-
-    return item if isinstance(item, Call) else None
 
 
 def _calls_first(entries: list[Entry]) -> list[Entry]:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..symbolic.block import Block
+from ..symbolic.errors import ModelError
 from ..symbolic.program import Entry
 from ..symbolic.signals import Kind, Signal
 from .style import WIDTH, Precision, comment_lines, comment_safe
@@ -65,16 +66,59 @@ def flatten(record: Any, prefix: str = "") -> dict[str, np.ndarray[Any, Any]]:
 
 
 def fill(record: np.ndarray[Any, Any], values: Mapping[str, Any]) -> np.ndarray[Any, Any]:
-    """Write (dotted) name -> value into a record and return it; conversions may overflow to infinity on purpose."""
+    """Write (dotted) name -> value into a record and return it; conversions may overflow to infinity on purpose.
+
+    Raises
+    ------
+    ModelError
+        If there is no such field, or it is of another size.
+    """
     with np.errstate(all="ignore"):
         for name, value in values.items():
             target = record
             *path, last = name.split(".")
-            for piece in path:
-                target = target[piece]
-            shape = target.dtype[last].shape
-            target[last] = np.asarray(value).reshape(shape)
+            try:
+                for piece in path:
+                    target = target[piece]
+                shape = target.dtype[last].shape
+            except (KeyError, ValueError, IndexError, TypeError):
+                has = ", ".join(_field_names(record.dtype)) or "none"
+                raise ModelError(f"there is no field {name!r}; the fields are {has}") from None
+            given = np.asarray(value)
+            if given.size != math.prod(shape):
+                raise ModelError(
+                    f"{name!r} has {math.prod(shape)} elements, and {given.size} are given; give {math.prod(shape)}"
+                )
+            target[last] = given.reshape(shape)
     return record
+
+
+def _field_names(dtype: np.dtype[Any]) -> list[str]:
+    names = []
+    for name in dtype.names or ():
+        inner = _field_names(dtype[name])
+        names += [f"{name}.{item}" for item in inner] if inner else [name]
+    return names
+
+
+def why_refused(block: Block, params: np.ndarray[Any, Any]) -> str:
+    """Return which parameter `init` refuses, for a message.
+
+    Parameters
+    ----------
+    block : Block
+        Whose `init` refused.
+    params : numpy record
+        What it was given.
+    """
+    values = flatten(params)
+    for signal in block.param_signals_flat():
+        given = np.atleast_1d(values[signal.name])
+        for k, (value, low, high) in enumerate(zip(given, signal.low, signal.high, strict=True)):
+            if signal.kind is Kind.REAL and not low <= value <= high:
+                name = signal.name if signal.size == 1 else f"{signal.name}[{k}]"
+                return f"{name} is {value:.9g}, outside its range {low:.9g} .. {high:.9g}"
+    return "each is within its range, but together they are not accepted"
 
 
 def default_params(block: Block, precision: Precision) -> np.ndarray[Any, Any]:

@@ -140,6 +140,7 @@ class Image:
         self.functions: dict[int, Function] = {}
         self.undefined: list[str] = []
         self.objects: list[DataObject] = []
+        self._tables: dict[str, list[Any]] = {}
         self._marks: list[tuple[int, bool]] = []  # where code (True) or data begins inside code sections
         self._read_symbols()
         self._fixed: dict[int, tuple[int | str, int]] = {}
@@ -170,11 +171,17 @@ class Image:
             value &= ~1
         return value + (self._sections[index].base if self.is_relocatable else 0)
 
+    def _symbols_of(self, table: Any) -> list[Any]:
+        """Return the symbols of a table, which relocations refer to again and again."""
+        if table.name not in self._tables:
+            self._tables[table.name] = list(table.iter_symbols())
+        return self._tables[table.name]
+
     def _read_symbols(self) -> None:
         table = self._elf.get_section_by_name(".symtab")
         if table is None:
             raise ObjectError(f"{self.name} has no symbol table; build it without stripping")
-        for symbol in table.iter_symbols():
+        for symbol in self._symbols_of(table):
             kind, binding = symbol["st_info"]["type"], symbol["st_info"]["bind"]
             if symbol["st_shndx"] == "SHN_UNDEF":
                 if symbol.name not in _IGNORED_SYMBOLS:
@@ -207,9 +214,9 @@ class Image:
             if not isinstance(section, RelocationSection) or section["sh_info"] not in self._sections:
                 continue
             place = self._sections[section["sh_info"]]
-            symbols = self._elf.get_section(section["sh_link"])
+            symbols = self._symbols_of(self._elf.get_section(section["sh_link"]))
             for item in section.iter_relocations():
-                symbol = symbols.get_symbol(item["r_info_sym"])
+                symbol = symbols[item["r_info_sym"]]
                 where = self._address_of(symbol)
                 addend = item["r_addend"] if section.is_RELA() else 0
                 at = place.base + item["r_offset"]

@@ -285,7 +285,7 @@ class _Prover:
             lines.append(f"    {name}_state_t state;")
             arguments = ["&state", *arguments]
         lines += [f"    {name}_params_t params;"] if self.params else []
-        lines += [f"    {name}_{entry.name}_in_t in;"] if entry.inputs else []
+        lines += ["    struct", "    {", *self._members(entry.inputs), "    } in;"] if entry.inputs else []
         lines += [f"    {name}_{entry.name}_out_t out;"] if entry.outputs else []
         arguments += ["&params"] if "*params" in head else []
         arguments += [f"in.{signal.name}" for signal in entry.inputs]
@@ -299,6 +299,14 @@ class _Prover:
         promised = [*_holds("after", self.memory, self.precision), *self._judged(entry)]
         lines += _accepted([*promised, *_answers("out", entry.outputs)])
         return self._task(entry, self._label(f"{entry.name}_core"), lines, self._stubs(entry))
+
+    def _members(self, signals: Sequence[Signal]) -> list[str]:
+        """Return the members of a struct; the header has none for what the core of a part is given."""
+        kinds = {Kind.REAL: self.precision.name, Kind.FLAG: "bool", Kind.COUNT: "uint32_t", Kind.STATUS: self.status}
+        return [
+            f"        {kinds[signal.kind]} {signal.name}" + (f"[{signal.size}];" if signal.size > 1 else ";")
+            for signal in signals
+        ]
 
     def _given(self, entry: Entry) -> list[str]:
         """Return assignments to what a call is given."""

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..symbolic.block import Block
+from ..symbolic.errors import expect
 from ..symbolic.program import Place, Visit, run_entry
 from ..symbolic.signals import Status
 from .compiler import library_for
@@ -22,6 +23,7 @@ from .layout import (
     inputs_dtype,
     memory_dtype,
     outputs_dtype,
+    why_refused,
 )
 from .style import Precision
 from .trace import Trace, TraceCall
@@ -66,6 +68,7 @@ class View:
     name = "view"
 
     def __init__(self, block: Block, precision: str = "double"):
+        expect(block, Block, f"{type(self).__name__}: what is to be run", "a Block")
         self.block = block
         self.precision = Precision(precision)
         self._blank: dict[str, Record] = {}
@@ -115,7 +118,9 @@ class View:
         given = self.params() if params is None else params
         answer = self.call("init", self.memory(), self.inputs("init", {}), given)
         if answer.status < 0:
-            raise ValueError(f"{self.block.name}: init refused the parameters ({answer.status.name})")
+            raise ValueError(
+                f"{self.block.name}: init refused the parameters ({answer.status.name}): {why_refused(self.block, given)}"
+            )
         return answer.memory
 
     def run(self, trace: Trace, params: Record | None = None, memory: Record | None = None) -> Trace:

@@ -58,6 +58,8 @@ _LONGEST_INLINE = 84
 _LONGEST_SCALE = 8
 _SHORTEST_COPY = 6
 _LARGEST_GUARDED = 8000
+_PLAIN = re.compile(r"[-\w.]+( [-+*/] [-\w.]+)+")
+"""Between `?` and `:` cppcheck (2.10) drops the parentheses around such a text, and then misses them (MISRA 12.1)."""
 
 Slot = tuple[Place, int]
 
@@ -790,12 +792,14 @@ class CoreWriter:
         if top and uses[node] > 1:
             return self._bind(node, uses)
         text = self._text(node, uses)
-        if not top and len(text) > _LONGEST_INLINE:
-            name = self._fresh("v")
-            self._line(f"const {'bool' if node.is_boolean else self.precision.name} {name} = {text};")
-            self.bound[node] = name
-            return name
-        return text
+        return text if top or len(text) <= _LONGEST_INLINE else self._bind_text(node, text)
+
+    def _bind_text(self, node: Node, text: str) -> str:
+        """Give a node whose text is known a line and a name of its own."""
+        name = self._fresh(node.hint or "v")
+        self._line(f"const {'bool' if node.is_boolean else self.precision.name} {name} = {text};")
+        self.bound[node] = name
+        return name
 
     def _text(self, node: Node, uses: Counter[Node]) -> str:
         if node.operation == "load":
@@ -809,6 +813,8 @@ class CoreWriter:
             x = self._expression(node.arguments[0], uses)
             return self.tables.call(self.root, node.operation, table_of(node.arguments), x)
         parts = [self._expression(item, uses) for item in node.arguments]
+        if node.operation == "select" and _PLAIN.fullmatch(parts[1]):
+            parts[1] = self._bind_text(node.arguments[1], parts[1])
         wrapped = [f"({text})" if _is_compound(text) else text for text in parts]
         operation = node.operation
         if operation in _COUNTED:

@@ -20,7 +20,7 @@ import numpy as np
 from plantc.codegen.batch import Batch, batch_text
 from plantc.codegen.emit import emit
 from plantc.examples import quadrotor_regulator as blocks
-from plantc.examples.quadrotor_regulator import T, hover, process_variance, references, sampled, set_point, tracks
+from plantc.examples.quadrotor_regulator import T, hover, process_variance, references, sampled, tracks
 from plantc.examples.regulation_runs import (
     OUTPUTS,
     STEPS,
@@ -46,7 +46,7 @@ from plantc.examples.regulation_runs import (
     wind_errors,
 )
 from plantc.simulation import Comparison, Picture, StudyResult, StudyTable, compared
-from plantc.symbolic import Block
+from plantc.symbolic import Block, Plant
 from plantc.symbolic.composition import connect, wires
 from plantc.symbolic.design import closed_loop_eigenvalues
 from plantc.symbolic.errors import ModelError
@@ -170,7 +170,9 @@ def run(wanted: Sequence[Case], progress: Callable[[str], None] = lambda what: N
     return answer
 
 
-def compiled(block: Block, noise: float = 0.0, seed: int = 0, pose: float = 0.0) -> tuple[Array, str]:
+def compiled(
+    block: Block, noise: float = 0.0, seed: int = 0, pose: float = 0.0, plant: Plant = sampled, steps: int = STEPS
+) -> tuple[Array, str]:
     """Return the outputs (steps, 4) of a regulator and the plant compiled as one loop, and the status that ended it, if one did.
 
     Parameters
@@ -181,8 +183,13 @@ def compiled(block: Block, noise: float = 0.0, seed: int = 0, pose: float = 0.0)
         Of the readings.
     pose : float
         Standard deviation of the noise of the vehicle's own position (m) and angles (rad), where they are read.
+    plant : Plant
+        The vehicle, with the names of the quadrotor's states and inputs, at rest in the same set point.
+    steps : int
+        How many.
     """
-    truth = simulated_plant(sampled, around=set_point, name="truth")
+    around = {item.signal.name: hover for item in sampled.inputs}
+    truth = simulated_plant(plant, around=around, name="truth")
     states, rotors = [state.signal.name for state in sampled.states], [item.signal.name for item in sampled.inputs]
     own = "estimator" in block.parts
     joined: dict[str, Any] = {f"regulator.feedback_{name}": f"plant.{name}" for name in states if not own}
@@ -195,17 +202,17 @@ def compiled(block: Block, noise: float = 0.0, seed: int = 0, pose: float = 0.0)
     }
     loop = connect({"plant": truth, "regulator": block}, joined, "loop")
     batch = Batch(batch_text(loop))
-    inputs, given = batch.inputs(STEPS + 1), readings(noise, seed)
+    inputs, given = batch.inputs(steps + 1), readings(noise, seed, steps)
     for k, name in enumerate(references):
         for field in inputs.dtype.names or ():
             if field.startswith(f"regulator_generator_{name}_"):
                 inputs[field] = True if "_has_" in field else given[:, k]
-    inputs["plant_pose_noise"] = pose * np.random.default_rng([seed, 1]).standard_normal((STEPS + 1, 6))
+    inputs["plant_pose_noise"] = pose * np.random.default_rng([seed, 1]).standard_normal((steps + 1, 6))
     if own:
         inputs["regulator_estimator_has_pose"] = True
     answer = batch.run(inputs)
     found = np.stack([answer.memory["plant"][name] for name in (states[k] for k in OUTPUTS)], axis=1)
-    return found, answer.status.name if answer.steps < STEPS + 1 else ""
+    return found, answer.status.name if answer.steps < steps + 1 else ""
 
 
 # ---------------------------------------------------------------------------------------------------------------------

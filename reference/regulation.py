@@ -190,12 +190,17 @@ class RegulatorFeedback:
         """Evaluate it; see `plantc.reference.controllers.Formula`."""
         w = np.concatenate([inputs[name] for name in self.generated])
         params = {**params, **{name: np.asarray(value, dtype=w.dtype) for name, value in self.fixed.items()}}
-        parts = [StateFeedback._deviation(kind, inputs[name], params[name]) for name, kind in self.states]
-        deviation = np.concatenate(parts)
-        Pi = self._matrix(params.get("state_map"), self.state_places, (len(deviation), len(w)), w.dtype)
-        rows = params["gain"].reshape(-1, len(deviation))
+        sizes = [3 if kind == "attitude" else len(inputs[name]) for name, kind in self.states]
+        Pi = self._matrix(params.get("state_map"), self.state_places, (sum(sizes), len(w)), w.dtype)
+        ahead, parts = np.split(Pi @ w, np.cumsum(sizes)[:-1]), []
+        for (name, kind), moved in zip(self.states, ahead, strict=True):
+            if kind == "attitude":  # by a rotation vector, to first order
+                parts.append(StateFeedback._deviation(kind, inputs[name], params[name]) - moved)
+            else:  # the set point moves, and then an angle is wrapped
+                parts.append(StateFeedback._deviation(kind, inputs[name], params[name] + moved))
+        rows = params["gain"].reshape(-1, sum(sizes))
         Gamma = self._matrix(params.get("input_map"), self.input_places, (len(rows), len(w)), w.dtype)
-        change = Gamma @ w - rows @ (deviation - Pi @ w)
+        change = Gamma @ w - rows @ np.concatenate(parts)
         commands: Fields = {}
         any_held, start = False, 0
         for name, size, low, high in self.inputs:

@@ -18,7 +18,7 @@ from ..codegen.views import View
 from ..symbolic.analysis import OperatingPoint
 from ..symbolic.block import Block
 from ..symbolic.composition import Delay, connect, delay
-from ..symbolic.errors import ModelError
+from ..symbolic.errors import ModelError, expect
 from ..symbolic.forms import packing_of
 from ..symbolic.plant import Plant
 from ..symbolic.program import Packing
@@ -129,6 +129,7 @@ def closed_loop(
     controller: Block,
     point: Mapping[Any, Any],
     *,
+    readings: Mapping[str, str] | None = None,
     held: Mapping[str, float] | None = None,
     name: str = "loop",
 ) -> ClosedLoop:
@@ -143,9 +144,12 @@ def closed_loop(
         Discrete: the truth. It need not be the plant that the controller was made for.
     controller : Block
         Has an entry `step`. An output named like an input of the plant commands it; an input named like a sensor, alone or
-        behind the name of a part, gets its reading; ``has_<sensor>`` is held at true.
+        behind the name of a part, gets its reading (if only one of them does; see `readings`); ``has_<sensor>`` is held at
+        true.
     point : OperatingPoint or dict
         The set point x*, u*: state or input -> value. Plant, estimate and commands start there.
+    readings : dict, optional
+        Input of the controller -> the sensor whose reading it gets, where the names do not say it, or say it of two.
     held : dict, optional
         Other inputs of the controller -> a constant value.
     name : str
@@ -154,8 +158,11 @@ def closed_loop(
     Raises
     ------
     ModelError
-        If an input of the plant is not commanded or is by two outputs, or an input of the controller is neither wired nor held.
+        If an input of the plant is not commanded or is by two outputs, if two inputs of the controller are named after one
+        sensor, or an input of the controller is neither wired nor held.
     """
+    expect(plant, Plant, f"closed_loop {name!r}: the plant", "a discrete Plant, the truth")
+    expect(controller, Block, f"closed_loop {name!r}: the controller", "a Block with an entry 'step'")
     where = OperatingPoint.at(plant, point)
     truth = simulated_plant(plant, around={**where.states, **where.inputs}, name=f"{plant.name}_truth")
     commands = [_command(controller, symbol.signal) for symbol in plant.inputs]
@@ -165,8 +172,9 @@ def closed_loop(
     constants: dict[str, float] = {}
     given = dict(held or {})
     sensors = {sensor.signal.name: sensor.signal.size for sensor in plant.sensors}
+    read = _readings(controller, sensors, readings or {}, given)
     for signal in controller.entries["step"].inputs:
-        sensor = _sensor_of(signal, sensors)
+        sensor = read.get(signal.name, "")
         if signal.name in given:
             constants[f"controller_{signal.name}"] = float(given.pop(signal.name))
         elif sensor:
@@ -221,6 +229,36 @@ def _command(controller: Block, wanted: Signal) -> str:
             f"command it; the outputs are {has}"
         )
     return found[0]
+
+
+def _readings(
+    controller: Block, sensors: Mapping[str, int], readings: Mapping[str, str], held: Mapping[str, float]
+) -> dict[str, str]:
+    """Return input of the controller -> the sensor that it reads."""
+    inputs = {signal.name: signal for signal in controller.entries["step"].inputs}
+    for name, sensor in readings.items():
+        if name not in inputs:
+            raise ModelError(
+                f"{controller.name}: readings= names {name!r}, which is no input of it; it has {', '.join(inputs)}"
+            )
+        if sensors.get(sensor) != inputs[name].size:
+            has = ", ".join(f"{key} ({size})" for key, size in sensors.items()) or "none"
+            raise ModelError(
+                f"{controller.name}: readings= gives its input {name!r}, of size {inputs[name].size}, the sensor "
+                f"{sensor!r}; the plant has {has}"
+            )
+    answer = dict(readings)
+    taken: dict[str, str] = {}
+    for name, signal in inputs.items():
+        sensor = "" if name in held or name in readings else _sensor_of(signal, sensors)
+        if sensor in taken:
+            raise ModelError(
+                f"{controller.name}: its inputs {taken[sensor]!r} and {name!r} are both named after the sensor {sensor!r}, "
+                f"and may mean different things; say what each reads: readings={{{taken[sensor]!r}: ..., {name!r}: {sensor!r}}}"
+            )
+        if sensor:
+            taken[sensor], answer[name] = name, sensor
+    return answer
 
 
 def _sensor_of(signal: Signal, sensors: Mapping[str, int]) -> str:

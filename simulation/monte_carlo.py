@@ -20,10 +20,11 @@ from numpy.typing import NDArray
 
 from ..codegen.batch import Batch, BatchText
 from ..codegen.emit import generator_version
+from ..codegen.layout import why_refused
 from ..codegen.views import NativeView
 from ..reference import quaternions
 from ..symbolic.block import Block
-from ..symbolic.errors import ModelError
+from ..symbolic.errors import ModelError, expect, whole
 from .closed_loop import ClosedLoop, Layout, run_batch
 from .cluster import on_cluster
 from .metrics import History, Judgement, StatePlace, judge
@@ -169,9 +170,12 @@ def replay(
     ModelError, ValueError
         As by `monte_carlo`; ValueError also if the start of this run is out of range.
     """
-    work = _work(loop, steps, seed, std, covariance, params, None)
-    _refuse_starts(loop, start or Start(), params or {})
-    return _history(work, run, _start_of(loop, start or Start(), seed, run, work.params))
+    expect(loop, ClosedLoop, "replay: the loop", "what closed_loop(plant, controller, point) returns")
+    run = whole(run, "replay: run", 0, 2**64 - 1)
+    start = Start() if start is None else start
+    work = _work(loop, steps, seed, start, std, covariance, params, None)
+    _refuse_starts(loop, start, params or {})
+    return _history(work, run, _start_of(loop, start, work.seed, run, work.params))
 
 
 def monte_carlo(
@@ -240,17 +244,17 @@ def monte_carlo(
     Interrupted
         On an interrupt; what was done is in it, and in the file.
     """
-    if runs < 1 or steps < 1:
-        raise ModelError(f"{loop.block.name}: {runs} runs of {steps} steps are asked for; give at least one of each")
-    if jobs is not None and jobs < 1:
+    expect(loop, ClosedLoop, "monte_carlo: the loop", "what closed_loop(plant, controller, point) returns")
+    runs, jobs = whole(runs, "monte_carlo: runs", 1), None if jobs is None else whole(jobs, "monte_carlo: jobs", 1)
+    begin = Start() if start is None else start
+    if file is not None and not Path(file).absolute().parent.is_dir():
         raise ModelError(
-            f"{loop.block.name}: jobs={jobs} is given; give 1 or more threads, or leave it out for one for each core"
+            f"monte_carlo: file is {str(file)!r}, and there is no folder {str(Path(file).parent)!r}; make it first"
         )
-    begin = start or Start()
-    work = _work(loop, steps, seed, std, covariance, params, limits)
+    work = _work(loop, steps, seed, begin, std, covariance, params, limits)
     _refuse_starts(loop, begin, params or {})
     result, stored = _so_far(_header(loop, work, runs, begin), file)
-    starts = {run: _start_of(loop, begin, seed, run, work.params) for run in result.missing}
+    starts = {run: _start_of(loop, begin, work.seed, run, work.params) for run in result.missing}
     with _shown(loop.block, progress) as report, _Writer(result, stored, file) as writer:
         report(runs - len(starts), runs)
         if on is None:
@@ -294,11 +298,16 @@ def _work(
     loop: ClosedLoop,
     steps: int,
     seed: int,
+    start: Start,
     std: Mapping[str, Any] | None,
     covariance: Mapping[str, Any] | None,
     params: Mapping[str, Any] | None,
     limits: Mapping[str, float] | None,
 ) -> Work:
+    steps, seed = whole(steps, "the number of steps", 1), whole(seed, "the seed", 0, 2**64 - 1)
+    expect(start, Start, "start=", "Start(deviation), such as Start(0.2), or Start({state: 0.2})")
+    for what, given in (("std", std), ("covariance", covariance), ("params", params), ("limits", limits)):
+        expect({} if given is None else given, Mapping, f"{what}=", "a dict from names to values")
     known = {signal.name for signal in loop.block.param_signals_flat()}
     unknown = sorted(set(params or {}) - known)
     if unknown:
@@ -318,7 +327,11 @@ def _work(
         loop.text, loop.layout, channels(loop.noises, std, covariance), loop.held, given, steps, seed, dict(limits or {})
     )  # fmt: skip
     batch = _batch_of(work.text)
-    batch.init(batch.params(given))
+    record = batch.params(given)
+    try:
+        batch.init(record)
+    except ValueError as error:
+        raise ValueError(f"{error}: {why_refused(loop.block, record)}") from None
     return work
 
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from .block import Block, Design, Scenario
-from .errors import ModelError
+from .errors import ModelError, expect
 from .names import check_name
 from .program import Assign, Call, Entry, Place, Refuse, Statement
 from .signals import Kind, Signal, Status, check_default, same_unit
@@ -124,6 +124,9 @@ def connect(
         If a wire names what does not exist, sizes, kinds or units differ, parts feed each other in a loop without a
         delay (the loop is named), or parts have different time steps.
     """
+    if not isinstance(blocks, Mapping):
+        for k, block in enumerate(blocks):
+            expect(block, Block, f"{name}: part {k}", "a Block, such as an estimator made of a plant")
     parts = dict(blocks) if isinstance(blocks, Mapping) else {block.name: block for block in blocks}
     if len(parts) != len(blocks):
         raise ModelError(
@@ -142,6 +145,7 @@ class _Composer:
             raise ModelError(f"{name}: there is nothing to connect; give at least one block")
         for part, block in parts.items():
             check_name("part", part, name)
+            expect(block, Block, f"{name}: the part {part!r}", "a Block, such as an estimator made of a plant")
             if "step" not in block.entries:
                 raise ModelError(f"{name}: the part {part!r} has no entry 'step'; a part is called by it")
         self.block = Block(name, doc=doc or f"composition of {', '.join(block.name for block in parts.values())}")

@@ -163,13 +163,18 @@ def _declare_feedback(block: Block, plant: Plant, where: OperatingPoint, K: Arra
             range=(signal.low, signal.high),
             doc=f"set point of {signal.name}" if signal.name in taken else f"{signal.name} that holds the set point",
         )
-    size = float(np.max(np.abs(K), initial=0.0))
-    reach = LARGEST_GAIN if size <= 0.1 * LARGEST_GAIN else 10.0 ** (math.ceil(math.log10(size)) + 1)
     rows = ", ".join(symbol.signal.name for symbol in plant.inputs)
     block.parameter(
-        "gain", K.ravel(), range=(-reach, reach), doc=f"K by rows ({rows}), columns in the order of the states"
+        "gain", K.ravel(), range=gain_range(K), doc=f"K by rows ({rows}), columns in the order of the states"
     )
     return taken
+
+
+def gain_range(matrix: Array) -> Ends:
+    """Return the range of the elements of a gain, or of other designed numbers that multiply signals."""
+    size = float(np.max(np.abs(matrix), initial=0.0))
+    reach = LARGEST_GAIN if size <= 0.1 * LARGEST_GAIN else 10.0 ** (math.ceil(math.log10(size)) + 1)
+    return -reach, reach
 
 
 def _feedback_law(block: Block, plant: Plant, taken: dict[str, Symbol]) -> tuple[dict[str, ca.SX], list[Signal]]:
@@ -186,18 +191,25 @@ def _feedback_law(block: Block, plant: Plant, taken: dict[str, Symbol]) -> tuple
     return answer, [symbol.signal for symbol in plant.inputs]
 
 
-def deviation_from(plant: Plant, taken: Mapping[str, Symbol], wanted: Mapping[str, Symbol]) -> ca.SX:
-    """Return the deviation of a state from a set point: angles wrapped, an attitude's the shorter way round."""
+def deviation_from(
+    plant: Plant, taken: Mapping[str, Symbol], wanted: Mapping[str, Any], moved: ca.SX | None = None
+) -> ca.SX:
+    """Return the deviation of a state from a set point: angles wrapped, an attitude's the shorter way round.
+
+    `moved` (error_size, 1) is by how much the state has to be elsewhere. An angle is wrapped after that is taken off: a heading
+    that turns on and on is followed past half a turn. Of an attitude it is a rotation vector, taken off to first order.
+    """
     pieces = []
     for state in plant.states:
         value, aim = ca.SX(taken[state.signal.name]), ca.SX(wanted[state.signal.name])
+        ahead = ca.SX(state.error_at.stop - state.error_at.start, 1) if moved is None else moved[state.error_at]
         if state.attitude:
             turned = quaternions.product(quaternions.conjugate(aim), value)
-            pieces.append(ca.if_else(turned[0] >= 0, 1, -1) * quaternions.rotation_of(turned))
+            pieces.append(ca.if_else(turned[0] >= 0, 1, -1) * quaternions.rotation_of(turned) - ahead)
         elif state.signal.angle:
-            pieces.append(wrap(value - aim))
+            pieces.append(wrap(value - aim - ahead))
         else:
-            pieces.append(value - aim)
+            pieces.append(value - aim - ahead)
     return ca.vertcat(*pieces)
 
 

@@ -1,4 +1,9 @@
-"""The one exception a user of the modelling layer meets."""
+"""The one exception a user of the modelling layer meets, and how the kind of an argument is judged."""
+
+from __future__ import annotations
+
+import operator
+from typing import Any
 
 
 class ModelError(ValueError):
@@ -6,3 +11,53 @@ class ModelError(ValueError):
 
     The message is one sentence: what was written, what was found, what to do.
     """
+
+
+def expect(value: Any, kind: type, what: str, wanted: str) -> None:
+    """Refuse an argument of another kind than is wanted.
+
+    Parameters
+    ----------
+    value : object
+        What was given.
+    kind : type
+        What it has to be.
+    what : str
+        The call and the argument, as the user wrote it.
+    wanted : str
+        What to give.
+
+    Raises
+    ------
+    ModelError
+        If it is of another kind.
+    """
+    if not isinstance(value, kind):
+        raise ModelError(f"{what} is {_told(value)}; give {wanted}")
+
+
+def whole(value: Any, what: str, lowest: int, highest: int | None = None) -> int:
+    """Return a whole number, Python's or NumPy's.
+
+    Raises
+    ------
+    ModelError
+        If it is none, or out of its range.
+    """
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = lowest - 1
+    if number < lowest or (highest is not None and number > highest):
+        upward = f"from {lowest} to {highest}" if highest is not None else f"of {lowest} or more"
+        raise ModelError(f"{what} is {value!r}; give a whole number {upward}")
+    return number
+
+
+def _told(value: Any) -> str:
+    name = getattr(value, "name", None)
+    return (
+        f"the {type(value).__name__} {name!r}"
+        if isinstance(name, str)
+        else f"{value!r}, of type {type(value).__name__}"
+    )

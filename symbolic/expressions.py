@@ -56,6 +56,7 @@ _OPERATIONS = {
     ca.OP_NOT: "not",
     ca.OP_IF_ELSE_ZERO: "if_else_zero",
 }
+_CODES = {name: code for code, name in reversed(_OPERATIONS.items())}  # of two codes for pow the first
 _OPERATION_NAMES = {getattr(ca, word): word[3:].lower() for word in dir(ca) if word.startswith("OP_")}
 
 PIECEWISE = frozenset({"saturation", "minimum", "maximum", "look_up", "look_up_slope"})
@@ -123,6 +124,11 @@ def _not_expanded(owner: str, function: ca.Function, reason: str) -> str:
         f"{owner}: the CasADi function {function.name()!r} cannot be expanded into scalar operations ({reason}); "
         "write it with SX operations, without external, interpolant, integrator or solver nodes"
     )
+
+
+def operation_code(operation: str) -> int:
+    """Return CasADi's number of an operation of a tape."""
+    return _CODES[operation]
 
 
 def constants_of(expression: ca.SX) -> list[float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -14,12 +14,21 @@ from numpy.typing import NDArray
 from ..reference.regulation import RegulatorFeedback
 from .analysis import OperatingPoint, linearise
 from .block import Block, Design
-from .components import Calls, finish, matrix_of
+from .components import Calls, finish
 from .composition import Delay, connect, wires
-from .controllers import LARGEST_GAIN, deviation_from
+from .controllers import gain_range
 from .design import Gain
 from .errors import ModelError
 from .exosystems import Exosystem, time_text
+from .feedback_law import (
+    FeedbackLaw,
+    Places,
+    columns_of,
+    elements_of,
+    linear_aim,
+    read_generators,
+    told_places,
+)
 from .origins import place_of_call
 from .parametric_regulator import ParametricRegulator
 from .plant import Plant, Symbol
@@ -28,7 +37,6 @@ from .signal_generators import observed_exosystem, signal_groups
 from .signals import Signal
 
 Array = NDArray[Any]
-Places = tuple[tuple[int, int], ...]
 
 MAPS = ("state_map", "input_map")
 
@@ -240,13 +248,12 @@ def regulator_feedback(
         Entries `init` and `step`, no memory.
     """
     name = name or f"{plant.name}_feedback"
-    where, acting = OperatingPoint.at(plant, point), _acting(plant, solution)
-    K = gain.rounded() if isinstance(gain, Gain) else matrix_of(name, "gain", gain)
-    shape = (sum(item.size for item in acting), plant.error_size)
-    if K.shape != shape or solution.state_map.shape[0] != shape[1] or solution.input_map.shape[0] != shape[0]:
+    where, law = OperatingPoint.at(plant, point), FeedbackLaw(plant, tuple(_acting(plant, solution)), saturate)
+    K = law.checked(name, gain)
+    if (len(solution.input_map), len(solution.state_map)) != law.shape:
         raise ModelError(
-            f"{name}: the gain has shape {K.shape}, Pi {solution.state_map.shape} and Gamma {solution.input_map.shape}; give K "
-            f"{shape[0]} x {shape[1]}, and the solution for this plant"
+            f"{name}: Pi has shape {solution.state_map.shape} and Gamma {solution.input_map.shape}, and the plant "
+            f"{plant.name!r} {law.shape[1]} states and {law.shape[0]} inputs that act; give the solution for this plant"
         )
     rate = plant.dt if isinstance(plant.dt, float) else dt or solution.exosystem.dt
     if rate is None and isinstance(gain, Gain):
@@ -254,8 +261,8 @@ def regulator_feedback(
     _check_model(name, plant, where, solution, rate)
     closed_loop(_running(plant, where, solution, rate), K, accept_unstable=accept_unstable)
     text = doc or "u = u* + Gamma w - K (x - x* - Pi w)"
-    law = _Law(plant, where, solution, saturate, tunable, name, text, gain, rate)
-    return law.block({"gain": K, **solution.rounded()})
+    made = _Regulator(law, where, solution, tunable, name, text, gain, rate)
+    return made.block({"gain": K, **solution.rounded()})
 
 
 def _near_point(plant: Plant, where: OperatingPoint, rate: float | None) -> LinearModel:
@@ -319,13 +326,12 @@ def _difference(mine: LinearModel, model: LinearModel, names: str) -> tuple[floa
 
 
 @dataclass(frozen=True, eq=False)
-class _Law:
-    """All that a law is made of, but for its numbers."""
+class _Regulator:
+    """All that a law of linear maps is made of, but for its numbers."""
 
-    plant: Plant
+    law: FeedbackLaw
     where: OperatingPoint
     solution: RegulatorSolution
-    saturate: bool
     tunable: bool
     name: str
     doc: str
@@ -335,7 +341,7 @@ class _Law:
     @property
     def order(self) -> list[int]:
         """Return the columns of Pi and Gamma in the order in which w comes."""
-        return [k for _, columns in signal_groups(self.solution.exosystem) for k in columns]
+        return columns_of(self.solution.exosystem)
 
     def places(self) -> dict[str, Places]:
         """Return where the elements of the maps that are not zero stand."""
@@ -344,107 +350,62 @@ class _Law:
 
     def numbers(self, values: Mapping[str, Any]) -> dict[str, Array]:
         """Return K by rows, and the elements of the maps."""
-        answer = {"gain": np.asarray(values["gain"], dtype=float).ravel()}
-        for what, own in self.places().items():
-            matrix = np.asarray(values[what], dtype=float)[:, self.order]
-            answer[what] = np.array([matrix[i, j] for i, j in own])
-        return answer
+        maps = {what: np.asarray(values[what], dtype=float)[:, self.order] for what in MAPS}
+        elements = {what: elements_of(maps[what], own) for what, own in self.places().items()}
+        return {"gain": np.asarray(values["gain"], dtype=float).ravel(), **elements}
 
     def block(self, values: Mapping[str, Any]) -> Block:
         """Return the Block with these numbers."""
-        plant, acting = self.plant, _acting(self.plant, self.solution)
-        block = Block(self.name, doc=self.doc)
+        law, block = self.law, Block(self.name, doc=self.doc)
         numbers, places = self.numbers(values), self.places()
-        taken, generated = self._declare(block, numbers, places, acting)
-        block.entry(
-            "step",
-            inputs=[*taken.values(), *generated],
-            outputs=self._commands(block, taken, generated, numbers, acting),
-            output_units={item.name: item.unit for item in acting},
-            output_ranges={item.name: (item.low, item.high) for item in acting},
-            output_docs={
-                item.name: f"{item.doc or 'command'}; keeps its last value when a call is refused" for item in acting
-            },
-            limits={item.name: (item.low, item.high) for item in acting} if self.saturate else {},
-            doc="The command for a state of the plant and of the exosystem.",
-        )
+        K = np.asarray(values["gain"], dtype=float)
+        taken = law.read_states(block)
+        generated = read_generators(block, self.solution.exosystem)
+        wanted = self._declare_set_point(block)
+        if self.tunable:
+            gain, elements = law.declare_gain(block, K), {}
+            for what, own in places.items():
+                elements[what] = ca.SX(0, 1)
+                if own:
+                    ends, said = gain_range(numbers[what]), told_places(what, own)
+                    elements[what] = ca.SX(block.parameter(what, numbers[what], range=ends, doc=said))
+            gain = ca.reshape(gain, law.shape[1], law.shape[0]).T
+        else:
+            gain, elements = ca.SX(ca.sparsify(ca.DM(K))), {what: ca.SX(ca.DM(numbers[what])) for what in MAPS}
+        aim = linear_aim(law, wanted, wanted, generated, elements, places)
+        meaning = "The command for a state of the plant and of the exosystem."
+        law.step(block, [*taken.values(), *generated], taken, gain, aim, meaning)
         block.sample_time = self.rate
-        kinds = tuple(
-            (state.signal.name, "attitude" if state.attitude else "angle" if state.signal.angle else "plain")
-            for state in plant.states
-        )
         formula = RegulatorFeedback(
-            kinds,
-            tuple((item.name, item.size, np.array(item.low), np.array(item.high)) for item in acting),
+            law.kinds,
+            law.ends,
             tuple(symbol.signal.name for symbol in generated),
             places["state_map"],
             places["input_map"],
-            self.saturate,
+            law.saturate,
             {} if self.tunable else numbers,
         )
-        K = np.asarray(values["gain"], dtype=float)
-        finish(block, {"step": formula}, _near(plant, self.where, K, self.solution, generated))
+        finish(block, {"step": formula}, self._near(K, generated))
         block.design = self._design(values)
         return block
 
-    def _declare(
-        self, block: Block, numbers: Mapping[str, Array], places: Mapping[str, Places], acting: list[Signal]
-    ) -> tuple[dict[str, Symbol], list[Symbol]]:
-        """Declare inputs and parameters; return states and w."""
-        taken, states = {}, [state.signal for state in self.plant.states]
-        for signal in states:
+    def _declare_set_point(self, block: Block) -> dict[str, Symbol]:
+        """Declare x* and u* as parameters."""
+        answer, values = {}, {**self.where.states, **self.where.inputs}
+        states = [state.signal for state in self.law.plant.states]
+        for signal in [*states, *self.law.acting]:
+            word = "set point of" if signal in states else "what holds the set point:"
             ends = (signal.low, signal.high)
-            taken[signal.name] = block.input(
-                signal.name, size=signal.size, unit=signal.unit, range=ends, doc=signal.doc
+            answer[signal.name] = block.parameter(
+                signal.name, values[signal.name], unit=signal.unit, range=ends, doc=f"{word} {signal.name}"
             )
-        generated = [
-            block.input(f"w_{signal}", size=len(columns), doc=f"state of the generator of {signal}")
-            for signal, columns in signal_groups(self.solution.exosystem)
-        ]
-        values = {**self.where.states, **self.where.inputs}
-        for signal in [*states, *acting]:
-            word = "set point of" if signal.name in taken else "what holds the set point:"
-            ends = (signal.low, signal.high)
-            block.parameter(signal.name, values[signal.name], unit=signal.unit, range=ends, doc=f"{word} {signal.name}")
-        if self.tunable:
-            rows = ", ".join(item.name for item in acting)
-            told = {"gain": f"K by rows ({rows}), columns in the order of the states"}
-            for what, letter in (("state_map", "Pi"), ("input_map", "Gamma")):
-                listed = " ".join(f"({i} {j})" for i, j in places[what])
-                told[what] = f"{letter}, its elements {listed}; the rest is zero"
-            for what, doc in told.items():
-                if len(numbers[what]):
-                    block.parameter(what, numbers[what], range=_reach(numbers[what]), doc=doc)
-        return taken, generated
-
-    def _commands(
-        self,
-        block: Block,
-        taken: Mapping[str, Symbol],
-        generated: list[Symbol],
-        numbers: Mapping[str, Array],
-        acting: list[Signal],
-    ) -> dict[str, ca.SX]:
-        """Return the commands as expressions."""
-        wanted = {symbol.signal.name: symbol for symbol in block.param_symbols()}
-        w, n = ca.vertcat(ca.SX(0, 1), *generated), self.plant.error_size
-        size = sum(item.size for item in acting)
-        held = {
-            what: ca.SX(wanted[what]) if self.tunable and len(item) else ca.SX(ca.DM(item))
-            for what, item in numbers.items()
-        }
-        maps = {}
-        for what, rows in (("state_map", n), ("input_map", size)):
-            maps[what] = ca.SX(rows, w.numel())
-            for k, (i, j) in enumerate(self.places()[what]):
-                maps[what][i, j] = held[what][k]
-        K = ca.sparsify(ca.reshape(held["gain"], n, size).T)
-        change = maps["input_map"] @ w - K @ (deviation_from(self.plant, taken, wanted) - maps["state_map"] @ w)
-        answer, start = {}, 0
-        for signal in acting:
-            answer[signal.name] = ca.SX(wanted[signal.name]) + change[start : start + signal.size]
-            start += signal.size
         return answer
+
+    def _near(self, K: Array, generated: list[Symbol]) -> Calls:
+        """Return calls near where the plant should be."""
+        hold = np.concatenate([np.ravel(self.where.inputs[item.name]) for item in self.law.acting])
+        Pi, Gamma = self.solution.state_map[:, self.order], self.solution.input_map[:, self.order]
+        return self.law.near(self.where.x, hold, K, Pi, Gamma, generated)
 
     def _design(self, values: Mapping[str, Any]) -> Design:
         """Return the record of Pi, Gamma and (of a Gain) K."""
@@ -488,41 +449,3 @@ def _acting(plant: Plant, solution: RegulatorSolution) -> list[Signal]:
     if not found:
         raise ModelError(f"{plant.name}: it has no input to act with; declare one with input()")
     return found
-
-
-def _reach(matrix: Array) -> tuple[float, float]:
-    size = float(np.max(np.abs(matrix), initial=0.0))
-    far = LARGEST_GAIN if size <= 0.1 * LARGEST_GAIN else 10.0 ** (math.ceil(math.log10(size)) + 1)
-    return -far, far
-
-
-def _near(plant: Plant, where: OperatingPoint, K: Array, solution: RegulatorSolution, generated: list[Symbol]) -> Calls:
-    """Return calls near where the plant should be, so near that commands stay within their ranges."""
-    order = [k for _, columns in signal_groups(solution.exosystem) for k in columns]
-    Pi, Gamma = solution.state_map[:, order], solution.input_map[:, order]
-    signals = _acting(plant, solution)
-    low, high = (np.concatenate([getattr(item, end) for item in signals]) for end in ("low", "high"))
-    hold = np.concatenate([np.ravel(where.inputs[item.name]) for item in signals])
-    reach = np.abs(K).sum(axis=1) + np.abs(Gamma).sum(axis=1)
-    room = np.maximum(np.minimum(high - hold, hold - low), 0.0)
-    factor = min(1.0, 0.2 * float(np.min(room / np.maximum(reach, 1e-300), initial=math.inf)))
-    retract = ca.Function(
-        "retract", [plant.x, error := ca.SX.sym("error", plant.error_size)], [plant.retract(plant.x, error)]
-    )
-
-    def calls(rng: Any, steps: int) -> Iterator[tuple[str, dict[str, Any]]]:
-        yield "init", {}
-        for _ in range(steps):
-            w = factor * np.clip(rng.normal(size=Pi.shape[1]), -3, 3)
-            away = factor * np.clip(rng.normal(size=len(Pi)), -3, 3)
-            x = np.asarray(retract(where.x, Pi @ w + away), dtype=float).ravel()
-            inputs: dict[str, Any] = {}
-            for state in plant.states:
-                inputs[state.signal.name] = np.clip(x[state.at], state.signal.low, state.signal.high)
-            start = 0
-            for symbol in generated:
-                inputs[symbol.signal.name] = w[start : start + symbol.signal.size]
-                start += symbol.signal.size
-            yield "step", inputs
-
-    return calls

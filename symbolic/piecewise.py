@@ -15,6 +15,7 @@ import casadi as ca
 import numpy as np
 
 from .errors import ModelError
+from .expressions import TABLES
 
 MOST_BREAKPOINTS = 4096
 """Of one table: beyond it, the expression takes CasADi longer than a model is worth."""
@@ -86,6 +87,25 @@ def _look_up_slope_node(count: int) -> ca.Function:
         value = ca.if_else(x >= at[k], ca.if_else(x <= at[k], on_it, steepness[k + 1]), value)
     flat = [ca.SX(1, 1), ca.SX(1, count), ca.SX(1, count)]
     return _call_node("look_up_slope", [x, at, of], value, flat, ["x", "at", "of"])
+
+
+def called(operation: str, arguments: Sequence[ca.SX]) -> ca.SX:
+    """Return the call of a piecewise function of a tape, its arguments as they stand there.
+
+    Parameters
+    ----------
+    operation : str
+        One of `expressions.PIECEWISE`.
+    arguments : sequence of casadi.SX
+        Scalars; of a table x, the breakpoints, and the values.
+    """
+    if operation in TABLES:
+        x, *rest = arguments
+        count = len(rest) // 2
+        node = _look_up_node(count) if operation == "look_up" else _look_up_slope_node(count)
+        return ca.SX(node(x, ca.vertcat(*rest[:count]), ca.vertcat(*rest[count:])))
+    node = _saturation_node() if operation == "saturation" else _extreme_node(operation)
+    return ca.SX(node(*arguments))
 
 
 # ---------------------------------------------------------------------------------------------------------------------

@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 from ..reference import power_series as reference
 from ..reference.controllers import StateFeedback
 from .block import Block, Design, Table
-from .components import Calls, finish, matrix_of, rounded_up
+from .components import Calls, finish, rounded_up
 from .design import Gain
 from .errors import ModelError
+from .feedback_law import Aim, FeedbackLaw
 from .plant import Plant, Symbol, wrap
 from .power_series import RegulatorSeries
 from .regulator_equations import closed_loop
@@ -134,40 +135,21 @@ def regulator_feedback(
         name or f"{plant.name}_regulator",
         doc=doc or f"follows the exosystem: u = u* + gamma(w) - K (x - x* - pi(w)), of the plant {_said(series)}",
     )
-    K = gain.rounded() if isinstance(gain, Gain) else matrix_of(block.name, "gain", gain)
+    law = FeedbackLaw(plant, tuple(_acting(series)), saturate)
+    K = law.checked(block.name, gain)
     closed_loop(series.degrees[0].model, K, accept_unstable=accept_unstable)
     taken, reach = _declare_generator(block, series, amplitude)
-    states = [
-        block.input(item.name, size=item.size, unit=item.unit, range=(item.low, item.high), doc=item.doc)
-        for item in (state.signal for state in plant.states)
-    ]
-    maps, signals = _declare_maps(block, series, taken)
-    size = _range_of(K)
-    rows = ca.reshape(
-        ca.SX(block.parameter("gain", K.ravel(), range=(-size, size), doc="K by rows")), K.shape[1], K.shape[0]
-    ).T
-    deviations = [(item.signal, item - maps[item.signal.name]) for item in states]
-    command, start = rows @ ca.vertcat(*[wrap(value) if own.angle else value for own, value in deviations]), 0
-    outputs, acting = {}, signals[len(states) :]
-    for signal in acting:
-        outputs[signal.name] = maps[signal.name] - command[start : start + signal.size]
-        start += signal.size
-    block.entry(
-        "step",
-        inputs=[*taken, *states],
-        outputs=outputs,
-        output_units={item.name: item.unit for item in acting},
-        output_ranges={item.name: (item.low, item.high) for item in acting},
-        output_docs={
-            item.name: f"{item.doc or 'command'}; keeps its last value when a call is refused" for item in acting
-        },
-        limits={item.name: (item.low, item.high) for item in acting} if saturate else {},
-        doc="The command for a state, and a state of the exosystem.",
-    )
+    states = law.read_states(block)
+    wanted = _declare_set_point(block, series)
+    moved, driven = series.expressions(ca.vertcat(*taken), *_declare_coefficients(block, series))
+    rows = ca.reshape(law.declare_gain(block, K), K.shape[1], K.shape[0]).T
+    aim = Aim(wanted, wanted, moved, driven)
+    meaning = "The command for a state, and a state of the exosystem."
+    law.step(block, [*taken, *states.values()], states, rows, aim, meaning)
     block.sample_time = plant.dt if isinstance(plant.dt, float) else None
-    kinds = tuple((item.signal.name, "angle" if item.signal.angle else "plain") for item in states)
-    ends = tuple((item.name, item.size, np.array(item.low), np.array(item.high)) for item in acting)
-    feedback = reference.RegulatorFeedback(_oracle(series, taken, signals), StateFeedback(kinds, ends, saturate))
+    signals = [*[state.signal for state in plant.states], *law.acting]
+    about = StateFeedback(law.kinds, law.ends, saturate)
+    feedback = reference.RegulatorFeedback(_oracle(series, taken, signals), about)
     finish(block, {"step": feedback}, _calls(taken, reach, series, K))
     return _recorded(block, series, reach, gain if isinstance(gain, Gain) else None)
 
@@ -203,20 +185,22 @@ def _declare_generator(block: Block, series: RegulatorSeries, amplitude: Any) ->
     return answer, reach
 
 
+def _declare_set_point(block: Block, series: RegulatorSeries) -> dict[str, Symbol]:
+    """Declare x* and u* as parameters."""
+    values = {**series.point.states, **series.point.inputs}
+    return {
+        item.name: block.parameter(
+            item.name, values[item.name], unit=item.unit, range=(item.low, item.high),
+            doc=f"{item.name} where w is zero",
+        )
+        for item in [*[state.signal for state in series.plant.states], *_acting(series)]
+    }  # fmt: skip
+
+
 def _declare_maps(block: Block, series: RegulatorSeries, taken: list[Symbol]) -> tuple[dict[str, ca.SX], list[Signal]]:
     """Declare x*, u* and the coefficients; return x* + pi(w) and u* + gamma(w) by name, and their signals."""
     signals = [*[state.signal for state in series.plant.states], *_acting(series)]
-    values = {**series.point.states, **series.point.inputs}
-    wanted = {
-        item.name: block.parameter(
-            item.name,
-            values[item.name],
-            unit=item.unit,
-            range=(item.low, item.high),
-            doc=f"{item.name} where w is zero",
-        )
-        for item in signals
-    }
+    wanted = _declare_set_point(block, series)
     rows, start = ca.vertcat(*series.expressions(ca.vertcat(*taken), *_declare_coefficients(block, series))), 0
     answer = {}
     for signal in signals:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 from typing import Any
 
 import casadi as ca
@@ -12,19 +12,26 @@ from numpy.typing import NDArray
 from ..reference.controllers import Range
 from ..reference.regulation import RegulatorFeedback, RetunedRegulator
 from .block import Block, Scenario
-from .components import matrix_of
-from .controllers import deviation_from
+from .controllers import gain_range
 from .design import Gain
 from .discretisation import increment
 from .errors import ModelError
 from .expressions import numpy_callable
-from .output_regulator import Places, _acting, _reach
+from .feedback_law import (
+    FeedbackLaw,
+    Places,
+    columns_of,
+    elements_of,
+    linear_aim,
+    read_generators,
+    told_places,
+)
+from .output_regulator import _acting
 from .parametric_regulator import ParametricRegulator
 from .plant import Plant, Symbol
 from .program import AllOf, Compare, Element, Entry, Evaluate, Place, Refuse, Statement, Within
 from .regulator_equations import closed_loop
-from .signal_generators import signal_groups
-from .signals import WIDE, Signal, Status
+from .signals import Signal, Status
 
 Array = NDArray[Any]
 
@@ -78,54 +85,43 @@ def retunable_feedback(
     name, solution = name or f"{plant.name}_feedback", regulator.nominal
     if not plant.parameters:
         raise ModelError(f"{name}: the plant {plant.name!r} has no parameters to follow; use regulator_feedback")
-    acting = _acting(plant, solution)
-    K = gain.rounded() if isinstance(gain, Gain) else matrix_of(name, "gain", gain)
-    shape = (sum(item.size for item in acting), plant.error_size)
-    if K.shape != shape:
-        raise ModelError(f"{name}: the gain has shape {K.shape}; give {shape[0]} x {shape[1]}")
+    law = FeedbackLaw(plant, tuple(_acting(plant, solution)), saturate)
+    K = law.checked(name, gain)
     rate = plant.dt if isinstance(plant.dt, float) else dt or solution.exosystem.dt
     model = solution.model
     closed_loop(
         model.sampled(rate) if model.dt is None and rate is not None else model, K, accept_unstable=accept_unstable
     )
     block = Block(name, doc=doc or "u = u*(p) + Gamma(p) w - K (x - x* - Pi(p) w)")
-    order = [k for _, columns in signal_groups(solution.exosystem) for k in columns]
+    order = columns_of(solution.exosystem)
     maps = {"state_map": regulator.state_map[:, order], "input_map": regulator.input_map[:, order]}
     places = {what: _places(matrix) for what, matrix in maps.items()}
-    taken, generated, stored = _declare(block, plant, regulator, places, acting)
-    hold = _held(plant, regulator, acting)
-    init = _init(block, plant, regulator, maps, places, hold)
+    taken, generated = law.read_states(block), read_generators(block, solution.exosystem)
+    for symbol in plant.parameters:
+        block.param_signals.append(symbol.signal)
+    stored = _declare_memory(block, regulator, places, law)
+    block.entries["init"] = _init(block, plant, regulator, maps, places, _held(regulator, law))
     # x* is folded: u*(p) is that of this set point, and of no other
-    at = np.asarray(ca.DM(regulator.states), dtype=float).ravel()
-    set_point: dict[str, Any] = {state.signal.name: ca.SX(ca.DM(at[state.at])) for state in plant.states}
-    w, n = ca.vertcat(ca.SX(0, 1), *generated), plant.error_size
-    filled = {}
-    for what, rows in (("state_map", n), ("input_map", shape[0])):
-        filled[what] = ca.SX(rows, w.numel())
-        for k, (i, j) in enumerate(places[what]):
-            filled[what][i, j] = ca.SX(stored[what])[k]
-    change = filled["input_map"] @ w - ca.SX(ca.sparsify(ca.DM(K))) @ (
-        deviation_from(plant, taken, set_point) - filled["state_map"] @ w
-    )
-    outputs, start = {}, 0
-    for signal in acting:
-        outputs[signal.name] = ca.SX(stored["hold"])[start : start + signal.size] + change[start : start + signal.size]
-        start += signal.size
-    block.entries["init"] = init
-    block.entry(
-        "step",
-        inputs=[*taken.values(), *generated],
-        outputs=outputs,
-        output_units={item.name: item.unit for item in acting},
-        output_ranges={item.name: (item.low, item.high) for item in acting},
-        limits={item.name: (item.low, item.high) for item in acting} if saturate else {},
-        doc="The command for a state of the plant and of the exosystem.",
-    )
+    at = _set_point(regulator)
+    states = {state.signal.name: ca.SX(ca.DM(at[state.at])) for state in plant.states}
+    aim = linear_aim(law, states, _by_signal(law.acting, ca.SX(stored["hold"])), generated, stored, places)
+    meaning = "The command for a state of the plant and of the exosystem."
+    law.step(block, [*taken.values(), *generated], taken, ca.SX(ca.sparsify(ca.DM(K))), aim, meaning)
     block.sample_time = rate
     block.source_hash = plant.fingerprint() + repr((K.tolist(), at.tolist()))
-    block.oracle = _oracle(block, plant, regulator, K, places, acting, generated, saturate)
-    block.scenario = _scenario(plant, regulator, K, places, acting, generated)
+    block.oracle = _oracle(block, law, regulator, K, places, generated)
+    block.scenario = _scenario(law, regulator, K, places, generated)
     return block
+
+
+def _set_point(regulator: ParametricRegulator) -> Array:
+    return np.asarray(ca.DM(regulator.states), dtype=float).ravel()
+
+
+def _by_signal(signals: Sequence[Signal], vector: ca.SX) -> dict[str, ca.SX]:
+    """Return the pieces of a vector by the names of signals."""
+    starts = np.cumsum([0, *[item.size for item in signals]]).tolist()
+    return {item.name: vector[start : start + item.size] for item, start in zip(signals, starts, strict=False)}
 
 
 def _places(matrix: ca.SX) -> Places:
@@ -133,45 +129,26 @@ def _places(matrix: ca.SX) -> Places:
     return tuple(sorted(zip(pattern.row(), pattern.get_col(), strict=True)))
 
 
-def _held(plant: Plant, regulator: ParametricRegulator, acting: list[Signal]) -> ca.SX:
+def _held(regulator: ParametricRegulator, law: FeedbackLaw) -> ca.SX:
     """Return u*(p) of the acting inputs."""
-    names, pieces, start = {item.name for item in acting}, [], 0
-    for symbol in plant.inputs:
-        size = symbol.signal.size
-        if symbol.signal.name in names:
-            pieces.append(regulator.inputs[start : start + size])
-        start += size
-    return ca.vertcat(*pieces)
+    whole = _by_signal([symbol.signal for symbol in law.plant.inputs], regulator.inputs)
+    return ca.vertcat(*[whole[item.name] for item in law.acting])
 
 
-def _declare(
-    block: Block, plant: Plant, regulator: ParametricRegulator, places: dict[str, Places], acting: list[Signal]
-) -> tuple[dict[str, Symbol], list[Symbol], dict[str, Symbol]]:
-    """Declare inputs, parameters and memory; return states, w, and what is stored."""
-    taken = {}
-    for state in plant.states:
-        signal = state.signal
-        ends = (signal.low, signal.high)
-        taken[signal.name] = block.input(signal.name, size=signal.size, unit=signal.unit, range=ends, doc=signal.doc)
-    generated = [
-        block.input(f"w_{signal}", size=len(columns), doc=f"state of the generator of {signal}")
-        for signal, columns in signal_groups(regulator.nominal.exosystem)
-    ]
-    for symbol in plant.parameters:
-        block.param_signals.append(symbol.signal)
-    low, high = (tuple(item for signal in acting for item in getattr(signal, end)) for end in ("low", "high"))
-    told = ", ".join(signal.name for signal in acting)
+def _declare_memory(
+    block: Block, regulator: ParametricRegulator, places: dict[str, Places], law: FeedbackLaw
+) -> dict[str, Symbol]:
+    """Declare what `init` computes: u* and the elements of the maps."""
+    low, high = (tuple(item for signal in law.acting for item in getattr(signal, end)) for end in ("low", "high"))
+    told = ", ".join(signal.name for signal in law.acting)
     fields = [Signal("hold", len(low), "", low, high, f"what holds the set point: {told}")]
-    found = regulator.at(_defaults(plant))
-    for what, letter in (("state_map", "Pi"), ("input_map", "Gamma")):
-        own = places[what]
+    found = regulator.at(_defaults(law.plant))
+    for what, own in places.items():
         if own:
-            reach = _reach(found[what])[1]
-            listed = " ".join(f"({i} {j})" for i, j in own)
-            size = len(own)
-            fields.append(Signal(what, size, "", (-reach,) * size, (reach,) * size, f"{letter}, its elements {listed}"))
+            size, reach = len(own), gain_range(found[what])[1]
+            fields.append(Signal(what, size, "", (-reach,) * size, (reach,) * size, told_places(what, own)))
     block.memory_signals += fields
-    return taken, generated, {signal.name: block._own(signal) for signal in fields}
+    return {signal.name: block._own(signal) for signal in fields}
 
 
 def _defaults(plant: Plant) -> Array:
@@ -225,16 +202,15 @@ def _init(
 
 def _oracle(
     block: Block,
-    plant: Plant,
+    law: FeedbackLaw,
     regulator: ParametricRegulator,
     K: Array,
     places: dict[str, Places],
-    acting: list[Signal],
     generated: list[Symbol],
-    saturate: bool,
 ) -> RetunedRegulator:
     """Return the oracle: f and h lowered to NumPy, the set point, and the exosystem."""
-    solution, x, u, p = regulator.nominal, plant.x, plant.u, plant.p
+    plant, solution = law.plant, regulator.nominal
+    x, u, p = plant.x, plant.u, plant.p
     if plant.discretisation is not None:
         following = plant.x + increment(plant)
     else:
@@ -243,13 +219,13 @@ def _oracle(
     rows |= {state.signal.name: ca.SX(state.symbol) for state in plant.states if state.signal.name not in rows}
     outputs = ca.vertcat(*[rows[name] for name in solution.model.outputs])
     judged = ca.vertcat(regulator.pivots, regulator.residual)
-    order = [k for _, columns in signal_groups(solution.exosystem) for k in columns]
+    order = columns_of(solution.exosystem)
     S = solution.exosystem.matrix[np.ix_(order, order)]
     picked = {
         kind: solution.exosystem.output[[solution.exosystem.signals.index(name) for name in names]][:, order]
         for kind, names in (("out", solution.model.outputs), ("dis", solution.model.disturbances))
     }
-    at = np.asarray(ca.DM(regulator.states), dtype=float).ravel()
+    at = _set_point(regulator)
     names = [symbol.signal.name for symbol in plant.inputs for _ in range(symbol.signal.size)]
     away = {*solution.model.disturbances}
     nominal_u = np.asarray(ca.Function("u", [p], [ca.densify(regulator.inputs)])(_defaults(plant)), dtype=float).ravel()
@@ -257,18 +233,17 @@ def _oracle(
     def of(signal: Signal) -> Range:
         return Range(signal.name, signal.low, signal.high)
 
-    kinds = tuple((state.signal.name, "angle" if state.signal.angle else "plain") for state in plant.states)
-    law = RegulatorFeedback(
-        kinds,
-        tuple((item.name, item.size, np.array(item.low), np.array(item.high)) for item in acting),
+    formula = RegulatorFeedback(
+        law.kinds,
+        law.ends,
         tuple(symbol.signal.name for symbol in generated),
         places["state_map"],
         places["input_map"],
-        saturate,
+        law.saturate,
         {"gain": K.ravel(), **{state.signal.name: at[state.at] for state in plant.states}},
     )
     return RetunedRegulator(
-        law=law,
+        law=formula,
         step=numpy_callable(ca.Function("step", [x, u, p], [ca.densify(following)])),
         discrete=plant.is_discrete,
         outputs=numpy_callable(ca.Function("outputs", [x, u, p], [ca.densify(outputs)])),
@@ -283,51 +258,22 @@ def _oracle(
         memory=tuple(of(signal) for signal in block.memory_signals),
         params=tuple(of(signal) for signal in block.param_signals),
         inputs=tuple(of(signal) for signal in block.entries["step"].inputs),
-        outputs_in=tuple(of(signal) for signal in acting),
+        outputs_in=tuple(of(signal) for signal in law.acting),
     )
 
 
 def _scenario(
-    plant: Plant,
-    regulator: ParametricRegulator,
-    K: Array,
-    places: dict[str, Places],
-    acting: list[Signal],
-    generated: list[Symbol],
+    law: FeedbackLaw, regulator: ParametricRegulator, K: Array, places: dict[str, Places], generated: list[Symbol]
 ) -> Scenario:
-    """Return calls so near the set point that commands stay within their ranges, and memories near the nominal one."""
-    order = [k for _, columns in signal_groups(regulator.nominal.exosystem) for k in columns]
-    found = regulator.at(_defaults(plant))
-    numbers = {"hold": _numbers(plant, regulator, acting)}
+    """Return calls near where the plant should be at the nominal parameters, and memories near the nominal one."""
+    order, found = columns_of(regulator.nominal.exosystem), regulator.at(_defaults(law.plant))
+    held = ca.Function("hold", [law.plant.p], [ca.densify(_held(regulator, law))])
+    numbers = {"hold": np.asarray(held(_defaults(law.plant)), dtype=float).ravel()}
     for what, own in places.items():
-        matrix = found[what][:, order]
-        numbers[what] = np.array([matrix[i, j] for i, j in own])
-    at = np.asarray(ca.DM(regulator.states), dtype=float).ravel()
-    low, high = (np.concatenate([getattr(item, end) for item in acting]) for end in ("low", "high"))
-    room = np.minimum(high - numbers["hold"], numbers["hold"] - low)
-    size = np.abs(K).sum(axis=1) * (1 + np.abs(found["state_map"]).sum(axis=1).max()) + np.abs(found["input_map"]).sum(
-        axis=1
-    )
-    factor = float(min(1.0, 0.2 * np.min(room / np.maximum(size, 1e-300))))
-
-    def calls(rng: Any, steps: int) -> Iterator[tuple[str, dict[str, Any]]]:
-        yield "init", {}
-        for _ in range(steps):
-            inputs: dict[str, Any] = {}
-            for state in plant.states:
-                value = at[state.at] + factor * np.clip(rng.normal(size=state.signal.size), -3, 3)
-                inputs[state.signal.name] = np.clip(value, state.signal.low, state.signal.high)
-            for symbol in generated:
-                wide = factor * np.clip(rng.normal(size=symbol.signal.size), -3, 3)
-                inputs[symbol.signal.name] = np.clip(wide, -WIDE, WIDE)
-            yield "step", inputs
+        numbers[what] = elements_of(found[what][:, order], own)
 
     def memory(rng: Any) -> dict[str, Any]:
         return {name: item * rng.uniform(0.9, 1.1, len(item)) for name, item in numbers.items() if len(item)}
 
-    return Scenario(calls, memory)
-
-
-def _numbers(plant: Plant, regulator: ParametricRegulator, acting: list[Signal]) -> Array:
-    held = ca.Function("hold", [plant.p], [ca.densify(_held(plant, regulator, acting))])
-    return np.asarray(held(_defaults(plant)), dtype=float).ravel()
+    Pi, Gamma = found["state_map"][:, order], found["input_map"][:, order]
+    return Scenario(law.near(_set_point(regulator), numbers["hold"], K, Pi, Gamma, generated), memory)

@@ -436,8 +436,7 @@ def weight_of(distance_squared: ca.SX, r: ca.SX, shrink: ca.SX | float, gamma: c
     else:
         lost = square * shrink
         larger = ca.fmax(distance_squared, lost)
-        some = larger > 0
-        weight = ca.if_else(some, (larger - lost) / ca.if_else(some, larger, 1), 1)
+        weight = ca.if_else(larger > 0, (larger - lost) / larger, 1)
     if gamma is None:
         return weight
     vanishing = ca.logic_and(square < SMALLEST_SQUARE, gamma > 0)

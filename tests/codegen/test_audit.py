@@ -14,7 +14,10 @@ from plantc.codegen.package import build_files
 from plantc.codegen.report import report_html
 from plantc.codegen.sanitizers import audit_sanitizers, audit_uninitialised
 from plantc.examples.pendulum import pendulum_ekf
+from plantc.symbolic import if_else, vertcat
+from plantc.symbolic.james_stein import james_stein_estimator
 
+from plantc import Block, Plant, connect
 from plantc.regenerate import PARTS
 
 OWN = ["misra", "gcc-analyzer", "clang-analyzer", "sanitizers", "uninitialised", "libfuzzer"]
@@ -57,6 +60,41 @@ def test_the_library_has_no_finding_and_every_deviation_around_it_a_reason(folde
     assert not any(row["file"].startswith("src/") for row in rows)
     assert all(row["count"] > 0 and row["reason"] == misra.DEVIATIONS[row["rule"]] for row in rows)
     assert not FORBIDDEN.search(json.dumps(found.facts))
+
+
+def low_pass():
+    """One entry, and one number in memory; its slope is a product in a branch."""
+    block = Block("low_pass")
+    raw = block.input("raw", range=(-10, 10))
+    weight = block.parameter("weight", 0.1, range=(0, 1))
+    smooth = block.memory("smooth", range=(-10, 10))
+    following = smooth + if_else(raw > 0, weight * raw, 0) - weight * smooth
+    block.entry("step", inputs=[raw], following={smooth: following}, outputs={"filtered": following})
+    return block
+
+
+def tracker():
+    """A modified James-Stein estimator, of whose entries a composition calls `step` only, and two low passes of one kind.
+
+    The estimator's weight vanishes, and is 1 where nothing is lost.
+    """
+    plane = Plant("plane")
+    states = [plane.state(name, range=(-1e3, 1e3)) for name in ("a", "b", "c")]
+    plane.dynamics({state: -state for state in states})
+    plane.sensor("all", vertcat(*states), variance=1.0)
+    estimator = james_stein_estimator(plane.discretise("euler", dt=0.1), gamma=0.15)
+    parts = {"estimator": estimator, "first": low_pass(), "second": low_pass()}
+    return connect(parts, {"second.raw": "first.filtered"}, "tracker")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("make", "value_flow"), [(low_pass, False), (tracker, True)])
+def test_a_block_of_one_entry_and_a_composition_have_no_finding(make, value_flow, tmp_path, needs):
+    needs("cppcheck")
+    block = make()
+    write_folder(tmp_path / block.name, build_files(block, "float"))
+    found = misra.audit_misra(open_folder(tmp_path / block.name), value_flow=value_flow)
+    assert [(check.name, check.note) for check in found.checks if not check.passed] == []
 
 
 def test_a_violation_in_the_library_is_found(folder, needs):

@@ -11,6 +11,9 @@ from plantc.codegen.emit import emit
 from plantc.examples.attitude_ekf import attitude_ekf
 from plantc.examples.pendulum import pendulum_ekf
 from plantc.examples.quadrotor_ekf import quadrotor_ekf, quadrotor_kf
+from plantc.symbolic import if_else
+
+from plantc import Block, connect
 
 BLOCKS = {block.name: block for block in (pendulum_ekf, attitude_ekf, quadrotor_ekf, quadrotor_kf)}
 PRECISIONS = ("double", "float")
@@ -107,3 +110,23 @@ def test_every_gain_of_a_row_shares_one_division():
     calls = source.count("quadrotor_ekf_gain(") - 1
     body = source[source.index("static void quadrotor_ekf_gain(") :]
     assert calls * body[: body.index("\n}\n")].count(" / ") == 12
+
+
+def test_a_composition_has_no_type_that_nothing_uses():
+    """Cores of parts take single arguments, and only `step` of a part can be called."""
+    text = emit(connect({"a": pendulum_ekf, "b": pendulum_ekf, "c": quadrotor_kf}, {}, "three"))
+    types = re.findall(r"^(?:} |typedef \w+ )(three_\w+_t);", text.header, re.MULTILINE)
+    assert {"three_step_in_t", "three_a_update_encoder_out_t", "three_b_step_out_t"} <= set(types)
+    assert not [name for name in types if name.startswith(("three_a_", "three_b_", "three_c_")) and "_in_t" in name]
+    for name in set(types) - {"three_step_in_t", "three_step_out_t"}:
+        assert len(re.findall(rf"\b{name}\b", text.header + text.source)) > 1, name
+
+
+def test_what_a_branch_gives_is_no_plain_arithmetic():
+    """cppcheck drops the parentheses around it, and then misses them."""
+    block = Block("mixer")
+    u, v = block.input("u", range=(-1, 1)), block.input("v", range=(-1, 1))
+    block.entry("step", inputs=[u, v], outputs={"y": 1 + if_else(u > 0, u * v, v)})
+    source = emit(block, "float").source
+    assert re.search(r"const float (\w+) = u \* v;\n +out->y = .*\? \1 : ", source), source
+    assert not re.search(r"\? \([\w.]+ [-+*/] [\w.]+\) :", source)

@@ -8,7 +8,7 @@ from plantc.codegen.layout import flatten
 from plantc.examples.pendulum import pendulum_ekf
 from plantc.examples.quadrotor_ekf import quadrotor_ekf
 
-from plantc import Block, InterpretView, NativeView, ReferenceView, Status
+from plantc import Block, InterpretView, ModelError, NativeView, ReferenceView, Status
 
 VIEWS = {precision: NativeView(pendulum_ekf, precision) for precision in ("double", "float")}
 anything = st.floats(allow_nan=True, allow_infinity=True, width=32)
@@ -51,8 +51,19 @@ def test_the_library_knows_its_model():
 
 def test_a_refused_init_is_a_sentence():
     view = VIEWS["double"]
-    with pytest.raises(ValueError, match="pendulum_ekf: init refused the parameters .BAD_PARAM."):
+    said = "pendulum_ekf: init refused the parameters .BAD_PARAM.: mass is -1, outside its range"
+    with pytest.raises(ValueError, match=said):
         view.init(view.params(mass=-1.0))
+
+
+def test_what_has_another_name_or_size_is_said():
+    view = VIEWS["double"]
+    with pytest.raises(ModelError, match="there is no field 'mas'; the fields are .*mass"):
+        view.params(mas=1.0)
+    with pytest.raises(ModelError, match="'mass' has 1 elements, and 2 are given"):
+        view.params(mass=[1.0, 2.0])
+    with pytest.raises(ModelError, match="NativeView: what is to be run is 3, of type int; give a Block"):
+        NativeView(3)
 
 
 def test_nested_fields_and_defaults():

@@ -174,6 +174,40 @@ def test_what_cannot_be_connected_is_said():
     assert set(metrics_of(history)) == {"regulation"}
 
 
+def test_a_reading_is_given_to_one_input_unless_it_is_said():
+    plant = Plant("tank", dt=1.0)
+    level = plant.state("level")
+    flow = plant.input("flow")
+    plant.dynamics({level: 0.9 * level + flow})
+    plant.sensor("gauge", level, variance=0.01)
+    plant.sensor("wish", -level, variance=0.01)
+    both = controller_of(["estimator_gauge", "generator_gauge"], ["flow"])
+    with pytest.raises(
+        ModelError, match=r"'estimator_gauge' and 'generator_gauge' are both named after the sensor 'gauge'"
+    ):
+        closed_loop(plant, both, {})
+    made = closed_loop(plant, both, {"level": 1.0}, readings={"generator_gauge": "wish"})
+    assert run_batch(Batch(made.text), made.layout, {}, 1).commands[0, 0] == pytest.approx(0.0, abs=1e-12)
+    made = closed_loop(plant, both, {"level": 1.0}, readings={"estimator_gauge": "gauge", "generator_gauge": "gauge"})
+    assert run_batch(Batch(made.text), made.layout, {}, 1).commands[0, 0] == pytest.approx(1.8)
+    with pytest.raises(
+        ModelError, match=r"readings= names 'gage', which is no input of it; it has estimator_gauge, gen"
+    ):
+        closed_loop(plant, both, {}, readings={"gage": "wish"})
+    with pytest.raises(ModelError, match=r"the sensor 'wihs'; the plant has gauge \(1\), wish \(1\)"):
+        closed_loop(plant, both, {}, readings={"generator_gauge": "wihs"})
+
+
+def test_what_is_of_another_kind_is_said():
+    plant = Plant("tank", dt=1.0)
+    level = plant.state("level")
+    plant.dynamics({level: 0.9 * level})
+    with pytest.raises(ModelError, match="the controller is the Plant 'tank'; give a Block"):
+        closed_loop(plant, plant, {})
+    with pytest.raises(ModelError, match="the plant is the Block 'pilot'; give a discrete Plant"):
+        closed_loop(controller_of(["gauge"], ["flow"]), plant, {})
+
+
 def test_the_loop_of_the_quadrotor_is_wired_as_the_specification_says(loop):
     made = loop("ekf")
     assert made.held == {"controller_estimator_has_pose": 1.0}

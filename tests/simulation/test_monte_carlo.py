@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from plantc.simulation import Interrupted, Judgement, Result, ResultError, Start, closed_loop, monte_carlo
+from plantc.simulation import Interrupted, Judgement, Result, ResultError, Start, closed_loop, monte_carlo, replay
 from plantc.simulation import noise as noise_module
 
 from plantc import Block, ModelError, Plant
@@ -184,7 +184,7 @@ def test_fewer_runs_asked_for_later_take_nothing_from_the_file(tank, tmp_path):
 
 def test_a_worker_of_another_version_says_so_and_freezes_no_run(tank):
     module = sys.modules["plantc.simulation.monte_carlo"]
-    work = module._work(tank, 5, 0, None, None, None, None)
+    work = module._work(tank, 5, 0, Start(), None, None, None, None)
     start = module._start_of(tank, Start(), 0, 0)
     assert module.run_one(work, 0, start).outcome == "kept"
     sources = {**work.text.sources, "another.h": ""}
@@ -213,12 +213,19 @@ def test_a_file_of_other_settings_is_refused(tank, tmp_path):
         ({"limits": {"height": 1.0}}, "limits= names 'height', which is no state; the states are level"),
         ({"start": Start({"height": 1.0})}, "the start names 'height'"),
         ({"start": Start(-1.0)}, "give a number, zero or more"),
-        ({"runs": 0}, "give at least one of each"),
+        ({"runs": 0}, "runs is 0; give a whole number of 1 or more"),
+        ({"runs": "2"}, "runs is '2'; give a whole number of 1 or more"),
+        ({"seed": 1.5}, "the seed is 1.5; give a whole number from 0 to 18446744073709551615"),
+        ({"seed": "a"}, "the seed is 'a'"),
+        ({"start": 0.2}, r"start= is 0.2, of type float; give Start\(deviation\)"),
+        ({"limits": 0.2}, "limits= is 0.2, of type float; give a dict"),
+        ({"file": "no/such/folder/runs.jsonl"}, "there is no folder 'no/such/folder'; make it first"),
+        ({"params": {"controller.gain": [1.0, 2.0]}}, "'controller.gain' has 1 elements, and 2 are given"),
         ({"start": Start(0.1, known=True)}, "start with known=False"),
         ({"params": {"plant.level_0": 3.0}}, "params= gives 'plant.level_0', which start= sets in each run"),
         ({"limits": {"level": float("nan")}}, "limits= gives nan for 'level'; give the largest distance"),
         ({"limits": {"level": -1.0}}, "limits= gives -1.0 for 'level'"),
-        ({"jobs": -2}, "jobs=-2 is given; give 1 or more threads"),
+        ({"jobs": -2}, "jobs is -2; give a whole number of 1 or more"),
     ],
 )
 def test_what_is_not_known_is_said(tank, given, message):
@@ -226,8 +233,19 @@ def test_what_is_not_known_is_said(tank, given, message):
         monte_carlo(tank, **({"runs": 1, "steps": 1} | given))
 
 
+def test_what_is_no_loop_is_said_and_whole_numbers_of_numpy_are_taken(tank):
+    with pytest.raises(ModelError, match=r"the loop is the Block 'tank_loop'; give what closed_loop"):
+        monte_carlo(tank.block, runs=1, steps=1)
+    with pytest.raises(ModelError, match="the loop is the Block"):
+        replay(tank.block, 0)
+    given = monte_carlo(tank, runs=np.int64(2), steps=np.int32(3), seed=np.uint64(2**63))
+    assert given.header == monte_carlo(tank, runs=2, steps=3, seed=2**63).header
+
+
 def test_parameters_that_init_refuses_are_an_error_not_a_frozen_run(tank):
-    with pytest.raises(ValueError, match=r"init refused the parameters \(BAD_PARAM\)"):
+    with pytest.raises(
+        ValueError, match=r"init refused the parameters \(BAD_PARAM\): controller.gain is 50, outside its range"
+    ):
         monte_carlo(tank, runs=1, steps=1, params={"controller.gain": 50.0})
 
 

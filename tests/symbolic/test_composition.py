@@ -212,3 +212,13 @@ def test_a_judgement_left_out_where_it_was_needed_is_seen(needs):
     law.entries = {**law.entries, "step": replace(law.entries["step"], settled=("position",))}
     block.parts["law"] = law
     assert not cross_check(block, steps=20).passed
+
+
+def test_a_part_that_is_no_block_is_said():
+    plant = Plant("tank", dt=1.0)
+    with pytest.raises(
+        ModelError, match="whole: the part 'tank' is the Plant 'tank'; give a Block, such as an estimator"
+    ):
+        connect({"tank": plant}, {}, "whole")
+    with pytest.raises(ModelError, match="whole: part 0 is 5, of type int; give a Block"):
+        connect([5], {}, "whole")

@@ -155,8 +155,14 @@ def test_what_is_refused(parts):
     with pytest.raises(RegulatorError, match=r"A - B K has spectral radius 1\.\d+, not below 1\); -K would"):
         output_regulator(plant, {}, -gain.gain, solution, generator)
     output_regulator(plant, {}, -gain.gain, solution, generator, accept_unstable=True)
-    with pytest.raises(ModelError, match=r"the gain has shape \(1, 3\), Pi \(2, 6\) and Gamma \(1, 6\); give K 1 x 2"):
+    with pytest.raises(
+        ModelError, match=r"the gain has shape \(1, 3\); give 1 x 2, a row for each input that acts \(force\)"
+    ):
         output_regulator(plant, {}, np.ones((1, 3)), solution, generator)
+    with pytest.raises(
+        ModelError, match=r"Pi has shape \(2, 6\) and Gamma \(2, 6\), and the plant 'spring' 2 states and 1"
+    ):
+        regulator_feedback(plant, {}, gain, replace(solution, input_map=np.ones((2, 6))))
 
 
 def with_estimator(parts):

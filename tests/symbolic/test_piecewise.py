@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from plantc.symbolic import ModelError, Plant, sign
 from plantc.symbolic.expressions import Pieces, equation_text, expand, numpy_callable, tape
+from plantc.symbolic.jump_matrix import jump_model
 from plantc.symbolic.piecewise import dead_zone, look_up, maximum, minimum, relay, saturated
 
 STEP = 1e-20
@@ -251,5 +252,23 @@ def test_the_table_is_part_of_the_model():
 
     from plantc import extended_kalman_filter
 
-    hashes = {extended_kalman_filter(block(values), initial_variance={"level": 1.0}).model_hash() for values in ([0, 1, 4], [0, 1, 5], [0, 1, 4])}
+    hashes = {
+        extended_kalman_filter(block(values), initial_variance={"level": 1.0}).model_hash()
+        for values in ([0, 1, 4], [0, 1, 5], [0, 1, 4])
+    }
     assert len(hashes) == 2
+
+
+def test_they_are_found_and_held_by_the_jump_matrix_technique():
+    plant = Plant("servo")
+    x1, x2 = plant.state("x1", range=(-100, 100)), plant.state("x2", range=(-100, 100))
+    w = plant.noise("w", density=0.1)
+    plant.dynamics({x1: x2, x2: -x2 + saturated(10 * (1 - x1), -1, 1) - look_up(x2, [-1, 0, 2], [-3, 0, 1]) + w})
+    plant.sensor("z", x1, variance=1.0)
+    drag = look_up(x2, [-1, 0, 2], [-3, 0, 1])  # built anew: equal by structure
+    model = jump_model(plant, {"amplified": saturated(10 * (1 - x1), -1, 1), "drag": drag}, dt=0.01)
+    symbols = model.plant.x
+    jump = ca.Function("jump", [symbols], [model.J, model.DJ])
+    values, slopes = jump([0.9, 0.0, 7.0, 7.0])
+    np.testing.assert_allclose(np.array(values).ravel(), [0.9, 0.0, 1.0, 0.0], atol=1e-12)
+    assert float(slopes[3, 1]) == pytest.approx(1.75)  # on a breakpoint: the mean of 3 and 0.5

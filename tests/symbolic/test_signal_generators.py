@@ -92,6 +92,7 @@ def test_the_steady_state_of_the_table(degree):
 
 
 def test_the_filter_is_that_of_the_paper():
+    """Section 14, item 12: a missing reading is a flag for its channel, whose state is predicted; what is behind it is not read."""
     generator = chains(2)
     block = kalman_exosystem(generator, process_variance=D, measurement_variance=M)
     k = np.arange(301)
@@ -109,6 +110,18 @@ def test_the_filter_is_that_of_the_paper():
     early, _ = run(block, readings[:150])
     late = oracle.kalman_exosystem(S, Q, D * np.eye(r), M * np.eye(4), readings[:150])[0]
     assert 1e-6 < np.max(np.abs(early - late)[-1]) < 1e-3
+
+
+@pytest.mark.parametrize("P_0", [1e-2, 1e3])
+def test_the_first_covariance_is_what_is_given(P_0):
+    """Section 14, item 11: P_0 is a number of the block, and the filter is that of the oracle from there."""
+    generator, readings = chains(2), psi(T * np.arange(101))
+    block = kalman_exosystem(generator, process_variance=D, measurement_variance=M, initial_variance=P_0)
+    found, _ = run(block, readings, at_zero=True)
+    arguments = generator.matrix, generator.output, D * np.eye(12), M * np.eye(4), readings
+    expected, _ = oracle.kalman_exosystem(*arguments, P=P_0 * np.eye(12))
+    np.testing.assert_allclose(found, expected, atol=1e-8)
+    assert np.max(np.abs(found - oracle.kalman_exosystem(*arguments)[0])) > 1e-3  # with P_0 = 1 it is another
 
 
 def test_the_error_of_the_spec_on_noise_free_signals():
@@ -140,6 +153,7 @@ def test_all_signals_are_read_or_disturbances_are_not_seen():
 
 
 def test_no_process_noise_is_a_fit_to_all_of_the_past():
+    """Section 14, item 9: D = 0 has gains that decay like 1/k, and no steady state is needed."""
     block = kalman_exosystem(constant("x").sampled(0.1), process_variance=0.0, measurement_variance=1.0)
     readings = np.random.default_rng(3).normal(size=(50, 1))
     found, _ = run(block, readings)
@@ -231,6 +245,7 @@ def test_the_observer_hands_out_what_it_knew_before_the_reading():
 
 
 def test_a_missing_sample_coasts_its_own_channel():
+    """Section 14, item 12, of the high-gain observer."""
     k = np.arange(40)
     readings = np.stack([1 + 0.1 * k, 2 - 0.2 * k, 0 * k, 0 * k + 3], axis=-1)
     present = np.ones((40, 4), dtype=bool)
@@ -285,6 +300,7 @@ def test_a_reading_behind_its_flag_is_judged_only_where_it_is_read():
     ],
 )  # fmt: skip
 def test_sentences(make, says):
+    """Section 14, item 10 among them: M = 0 is refused."""
     with pytest.raises(ModelError, match=says):
         make()
 
