@@ -131,7 +131,9 @@ def _of_plant(owner: str, plant: Plant, regulator: ParametricRegulator) -> Param
             f"{', '.join(_names(theirs))}, and {plant.name!r} has {', '.join(_names(plant))}; solve them for this plant"
         )
     names = ("inputs", "state_map", "input_map", "pivots", "residual")
-    moved = {name: ca.substitute(getattr(regulator, name), regulator.parameters, plant.p) for name in names}
+    moved: dict[str, Any] = {
+        name: ca.substitute(getattr(regulator, name), regulator.parameters, plant.p) for name in names
+    }
     made = replace(regulator, parameters=plant.p, **moved)
     _check_plant(owner, plant, made)
     return made
@@ -154,16 +156,20 @@ def _check_plant(owner: str, plant: Plant, regulator: ParametricRegulator) -> No
 
 
 def _names(plant: Plant) -> list[str]:
-    return [item.signal.name for item in (*plant.states, *plant.inputs, *plant.parameters)]
+    return [state.signal.name for state in plant.states] + [
+        symbol.signal.name for symbol in (*plant.inputs, *plant.parameters)
+    ]
 
 
 def _left(plant: Plant, regulator: ParametricRegulator, p: Array) -> tuple[float, str]:
     """Return what u*(p), Pi(p) and Gamma(p) leave of a plant's equations, of their terms, and of which."""
     found = regulator.at(p)
     values: dict[str, Any] = {}
-    for group, vector in ((plant.states, found["states"]), (plant.inputs, found["inputs"]), (plant.parameters, p)):
+    groups = [[state.signal for state in plant.states]]
+    groups += [[symbol.signal for symbol in group] for group in (plant.inputs, plant.parameters)]
+    for signals, vector in zip(groups, (found["states"], found["inputs"], p), strict=True):
         start = 0
-        for signal in (item.signal for item in group):
+        for signal in signals:
             within = np.clip(np.ravel(vector)[start : start + signal.size], signal.low, signal.high)
             values[signal.name], start = within, start + signal.size
     at = OperatingPoint.at(plant, values)
