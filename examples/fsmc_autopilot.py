@@ -267,7 +267,7 @@ def loop(law: str = "FSMC", which: str = "A", *, estimated: bool = True, ramp: b
     truth = sampled(vehicle(values=values, tunable=own, disturbed=True, seen=not estimated))
     pilot = autopilot(law, values) if estimated else control_law(law, values)
     controller = led(pilot, trajectory(ramp=ramp))
-    readings = {}
+    readings: dict[str, str] = {}
     if not estimated:
         for signal in controller.entries["step"].inputs:
             state = seen_by(signal.name.removeprefix("pilot_"))

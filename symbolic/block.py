@@ -274,8 +274,8 @@ class Block:
             Output name -> its meaning.
         limits : dict, optional
             Output name -> (low, high), each a number (or one for each element), a parameter, an expression, or None for no
-            limit on that side: the output is held between them, and where that changes it the status is CLAMPED. What is not a number is
-            refused (OVERFLOW).
+            limit on that side: the output is held between them, and where that changes it the status is CLAMPED. What is
+            not a number is refused (OVERFLOW).
         guards : sequence of (expression, Status)
             Where an expression is zero (false), the call is refused with the (negative) status, in this order.
         doc : str

@@ -21,6 +21,7 @@ from plantc import NativeView, cross_check
 GOLDEN = runpy.run_path(str(Path(__file__).parents[1] / "reference/fsmc_goldens.py"))
 ESTIMATE, ONE_STEP, C, D, E, WRONG = (GOLDEN[name] for name in ("ESTIMATE", "ONE_STEP", "C", "D", "E", "WRONG"))
 WEIGHT = SET_A.mass * SET_A.gravity
+PRECISIONS = ["double", pytest.param("float", marks=pytest.mark.slow)]
 
 
 @cache
@@ -100,7 +101,7 @@ REST = np.zeros(12)
 THERE = fsmc.trajectory(0.0)
 
 
-@pytest.mark.parametrize("precision", ["double", "float"])
+@pytest.mark.parametrize("precision", PRECISIONS)
 @pytest.mark.parametrize("roll", [1.38, 1.7, math.pi])
 def test_beyond_78_degrees_the_cosine_is_held(precision, roll):
     X = REST.copy()
@@ -114,7 +115,7 @@ def test_beyond_78_degrees_the_cosine_is_held(precision, roll):
     assert all(np.all(np.isfinite(item)) for item in out.values())
 
 
-@pytest.mark.parametrize("precision", ["double", "float"])
+@pytest.mark.parametrize("precision", PRECISIONS)
 def test_a_thrust_that_would_be_negative_is_raised_and_what_is_divided_by_it_is_finite(precision):
     X = REST.copy()
     X[10], X[11] = 8.0, 6.0  # above 5 m and rising fast
@@ -130,7 +131,7 @@ def test_a_thrust_that_would_be_negative_is_raised_and_what_is_divided_by_it_is_
     assert call(law("FSMC", precision), falling, THERE)[1]["altitude.u1"][0] == pytest.approx(19.098880, rel=1e-6)
 
 
-@pytest.mark.parametrize("precision", ["double", "float"])
+@pytest.mark.parametrize("precision", PRECISIONS)
 def test_far_away_the_sines_are_clipped_before_the_arcsine(precision):
     for start in ((40.0, -40.0), (-900.0, 0.0), (0.0, 900.0)):
         X = REST.copy()
@@ -144,7 +145,7 @@ def test_far_away_the_sines_are_clipped_before_the_arcsine(precision):
         np.testing.assert_allclose(raw(out), control.said["raw"], atol=1e-5)
 
 
-@pytest.mark.parametrize("precision", ["double", "float"])
+@pytest.mark.parametrize("precision", PRECISIONS)
 def test_the_error_of_yaw_is_wrapped(precision):
     for yaw in (-9.0, -3.0, 3.0, 3.9, 3.95, 20.0):
         X = REST.copy()
@@ -154,7 +155,7 @@ def test_the_error_of_yaw_is_wrapped(precision):
         assert abs(out["attitude.surface_yaw"][0]) <= 3 * math.pi + 1e-4
 
 
-@pytest.mark.parametrize("precision", ["double", "float"])
+@pytest.mark.parametrize("precision", PRECISIONS)
 @pytest.mark.parametrize("bad", [math.nan, math.inf])
 def test_a_state_or_a_reference_that_is_no_number_is_reported(precision, bad):
     """NaN in s is never clipped away: whatever it may come from is refused, and the memory is left as it was."""
@@ -175,7 +176,8 @@ def pilot(precision):
     return NativeView(autopilot(), precision)
 
 
-@pytest.mark.parametrize("precision", ["float", pytest.param("double", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("precision", ["float", "double"])
 @pytest.mark.parametrize("bad", [math.nan, math.inf])
 def test_a_reading_that_is_no_number_is_reported_and_skipped(precision, bad):
     view = pilot(precision)
