@@ -5,8 +5,6 @@
 
 import casadi as ca
 import numpy as np
-
-from plantc import Block, NativeView
 from plantc.codegen.costs import read
 from plantc.codegen.crosscheck import CrossCheck, make_probes, make_views
 from plantc.codegen.emulator import TargetView
@@ -14,6 +12,8 @@ from plantc.codegen.on_target import free_trace, run_on_target
 from plantc.codegen.targets import TARGETS
 from plantc.symbolic import fabs, fmax, fmin, if_else
 from plantc.symbolic.piecewise import dead_zone, look_up, maximum, minimum, relay, saturated
+
+from plantc import Block, NativeView
 
 
 def uneven(count):
