@@ -599,9 +599,9 @@ def _law(
     wide = _held_at(own)
     if wide is not None:
         outputs[f"input_gain_{q}"] = g
-        limits[f"input_gain_{q}"] = wide
+        limits[f"input_gain_{q}"] = (wide[0], None) if wide[0] > 0 else (None, wide[1])
         signals.append(Signal(f"input_gain_{q}", low=(wide[0],), high=(wide[1],), doc=f"g of {q}, held at its least"))
-        g = ca.fmin(ca.fmax(g, wide[0]), wide[1])
+        g = ca.fmax(g, wide[0]) if wide[0] > 0 else ca.fmin(g, wide[1])
     e = taken[q] - aim[0]
     e = wrap(e) if own.wraps else e
     slope = rate - aim[1]
