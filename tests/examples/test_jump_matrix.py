@@ -305,6 +305,21 @@ def test_reference_medians(whole):
 
 
 @pytest.mark.slow
+def test_the_documentation_shows_what_comes_out(whole, checkout):
+    text = (checkout / "docs" / "studies.md").read_text().split("<!-- jump_matrix -->")[1]
+    lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.strip().splitlines()[2:]]
+    assert len(lines) == 8
+    for number, approach, where, *numbers in lines:
+        table, row = TABLES[int(number)], float(re.split("= |slope ", where)[-1])
+        column = {"original": 0, "modified": 1}.get(where.split(",")[0])
+        if column is None:
+            column = table.values.index(float(re.findall(r"= (\S+),", where)[0]))
+        own = whole[0][table.case(row, column)]
+        told = (table.rows[row][column], own.median, *own.band)
+        assert [f"{value:.3g}" for value in told] == numbers and table.approach == approach, where
+
+
+@pytest.mark.slow
 def test_trends(whole):
     found, _ = whole
     median = lambda number, row, column, *more: found[TABLES[number].case(row, column, *more)].median  # noqa: E731
