@@ -103,7 +103,7 @@ def output_regulator(
         that of another plant or point.
     """
     name = name or f"{plant.name}_regulator"
-    nominal = solution.nominal if isinstance(solution, ParametricRegulator) else solution
+    nominal = _nominal(name, solution, generator)
     parts, joined = _generators(name, generator, nominal)
     rate = _common_rate(name, plant, nominal, parts)
     if isinstance(solution, ParametricRegulator):
@@ -133,6 +133,22 @@ def output_regulator(
     parts["feedback"] = feedback
     text = doc or f'output regulator of the plant "{plant.name}": follows {", ".join(nominal.model.outputs)}'
     return connect(parts, joined, name, settled=True, doc=text)
+
+
+def _nominal(owner: str, solution: Any, generator: Any) -> RegulatorSolution:
+    """Return the numeric solution; refuse what stands in the wrong place."""
+    hints = {
+        "solution": "francis(linearise(plant, point), exosystem)",
+        "generator": "an observer of the exosystem, kalman_exosystem(exosystem, ...) or high_gain_exosystem(...)",
+    }
+    nominal = solution.nominal if isinstance(solution, ParametricRegulator) else solution
+    observers = list(generator.values()) if isinstance(generator, Mapping) else [generator]
+    for what, items, kind in (("solution", [nominal], RegulatorSolution), ("generator", observers, Block)):
+        for item in items:
+            if not isinstance(item, kind):
+                raise ModelError(f"{owner}: the {what} is of type {type(item).__name__}; give {hints[what]}")
+    assert isinstance(nominal, RegulatorSolution)
+    return nominal
 
 
 def _check_set_point(owner: str, plant: Plant, point: Mapping[Any, Any], solution: ParametricRegulator) -> None:
