@@ -195,11 +195,29 @@ class Graph:
         return a.arguments[0] if a.operation == "not" else None
 
     def _simple_div(self, a: Node, b: Node) -> Node | None:
+        slope = self._slope_of_extreme(a, b)
+        if slope is not None:
+            return slope
         if b.operation == "const" and b.value != 0.0 and math.isfinite(1.0 / b.value):
             return self.make("mul", self.const(1.0 / b.value), a)
         if a.operation == "neg":
             return self.make("neg", self.make("div", a.arguments[0], b))
         return None
+
+    def _slope_of_extreme(self, a: Node, b: Node) -> Node | None:
+        """Return, without a division, CasADi's derivative of fmin and fmax: t / (t + u) with t = (p <= q), u = (q <= p)."""
+        if b.operation != "add" or a not in b.arguments:
+            return None
+        other = b.arguments[0] if b.arguments[1] is a else b.arguments[1]
+        one, zero = self.const(1.0), self.const(0.0)
+        if any(item.operation != "select" or item.arguments[1:] != (one, zero) for item in (a, other)):
+            return None
+        this, that = a.arguments[0], other.arguments[0]
+        if this.operation != "le" or that.operation != "le" or this.arguments != that.arguments[::-1]:
+            return None
+        neither = self.make("add", *this.arguments)  # where one of them is NaN, and the quotient is 0 / 0
+        tied = self.make("select", that, self.const(0.5), one)
+        return self.make("select", this, tied, self.make("select", that, zero, neither))
 
     def from_tape(self, tape: Tape, inputs: Sequence[Sequence[Node]]) -> list[list[Node]]:
         """Return the output nodes of a tape.
@@ -238,6 +256,12 @@ class Graph:
                     zero = self.const(0.0)
                     below = self.make("select", self.make("lt", items[0], zero), self.const(-1.0), items[0])
                     node = self.make("select", self.make("lt", zero, items[0]), self.const(1.0), below)
+                case "saturation":
+                    x, low, high = [self.as_number(item) for item in items]
+                    above = self.make("select", self.make("lt", x, low), low, x)
+                    node = self.make("select", self.make("lt", high, above), high, above)
+                case "minimum" | "maximum":
+                    node = self._strict_extreme(step.operation, *[self.as_number(item) for item in items])
                 case "fmin" | "fmax":
                     node = self._extreme(step.operation, *[self.as_number(item) for item in items])
                 case "and" | "or" | "not":
@@ -256,6 +280,17 @@ class Graph:
         not_worse = (a, b) if operation == "fmin" else (b, a)
         other = b if b.operation == "const" else self.make("select", self.make("eq", b, b), b, a)
         return self.make("select", self.make("le", *not_worse), a, other)
+
+    def _strict_extreme(self, operation: str, a: Node, b: Node) -> Node:
+        """Return the smaller or larger as comparisons that pass NaN on."""
+        if a.operation == "const":
+            a, b = b, a
+        b_below_a, a_below_b = (self.make("lt", *pair) for pair in ((b, a), (a, b)))
+        if b.operation == "const":
+            return self.make("select", b_below_a if operation == "minimum" else a_below_b, b, a)
+        first, second = (a_below_b, (b, a)) if operation == "minimum" else (b_below_a, (a, b))
+        other = self.make("select", self.make("le", *second), b, self.make("add", a, b))
+        return self.make("select", first, a, other)
 
     def as_number(self, node: Node) -> Node:
         """Return 1 or 0 for a truth value."""

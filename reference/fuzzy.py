@@ -34,6 +34,11 @@ def area_and_moment(corners: Corners, height: Any) -> tuple[Any, Any]:
     return area, moment
 
 
+def midpoints(low: float, high: float, points: int) -> Array:
+    """Return the middles of so many equal pieces, shape (points,)."""
+    return low + (np.arange(points) + 0.5) * ((high - low) / points)
+
+
 @dataclass(frozen=True, eq=False)
 class Fuzzy:
     """What `plantc.symbolic.fuzzy.FuzzySystem` computes.
@@ -51,7 +56,7 @@ class Fuzzy:
     implication : {"min", "product"}
     aggregation : {"max", "sum"}
     points : int
-        At which the union of the sets that were cut off is integrated (`aggregation` "max").
+        Middles of equal pieces, at which the union of the sets is integrated (`aggregation` "max").
     """
 
     inputs: tuple[tuple[str, float, float, Mapping[str, Corners]], ...]
@@ -98,7 +103,7 @@ class Fuzzy:
         return area_and_moment(corners, strength)
 
     def _of_union(self, said: Sequence[tuple[Any, Corners]], sets: Any) -> Array:
-        y = np.linspace(min(item[0] for item in sets), max(item[3] for item in sets), self.points)
+        y = midpoints(min(item[0] for item in sets), max(item[3] for item in sets), self.points)
         union: Any = 0.0
         for strength, corners in said:
             own, degree = np.asarray(strength)[..., None], membership(y, corners)

@@ -14,7 +14,7 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
 from .analysis import eigenvalues_of
-from .components import matrix_of, seconds
+from .components import matrix_of, seconds, vector_of
 from .errors import ModelError
 
 Array = NDArray[Any]
@@ -109,7 +109,7 @@ class Exosystem:
         Raises
         ------
         ModelError
-            If it is discrete already, or dt or method make no sense.
+            If it is discrete already, dt or method make no sense, or a frequency is at or beyond half the rate of sampling.
         """
         name = _listed(self.signals)
         if self.dt is not None:
@@ -119,6 +119,12 @@ class Exosystem:
         if method not in ("exact", "euler"):
             raise ModelError(f"exosystem of {name}: the method {method!r} is not known; take 'exact' or 'euler'")
         step = seconds(f"exosystem of {name}", dt)
+        fastest = float(np.max(np.abs(self.eigenvalues.imag), initial=0.0))
+        if fastest * step >= math.pi * (1 - 1e-12):
+            raise ModelError(
+                f"exosystem of {name}: {fastest:.6g} rad/s sampled every {step:g} s is at or beyond half the rate of sampling "
+                f"({math.pi / step:.6g} rad/s), where its samples are those of another signal; take a smaller dt"
+            )
         if self.parts:
             parts = tuple(part.sampled(step, method) for part in self.parts)
             values = np.concatenate([part.eigenvalues for part in parts])
@@ -211,12 +217,21 @@ class Exosystem:
             w_0.
         steps : int
             How many.
+
+        Raises
+        ------
+        ModelError
+            If it is continuous, w_0 has another size or is not finite, or `steps` is no whole number.
         """
         if self.dt is None:
             raise ModelError(
                 f"exosystem of {_listed(self.signals)}: it is continuous; run sampled(dt), which has a time step"
             )
-        w, rows = np.asarray(initial, dtype=float), []
+        if not isinstance(steps, int | np.integer) or steps < 0:
+            raise ModelError(
+                f"exosystem of {_listed(self.signals)}: steps is {steps!r}; give a whole number, at least 0"
+            )
+        w, rows = vector_of(f"exosystem of {_listed(self.signals)}", "w_0", initial, self.order), []
         for _ in range(steps + 1):
             rows.append(self.output @ w)
             w = self.matrix @ w

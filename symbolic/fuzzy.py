@@ -11,7 +11,7 @@ from typing import Any, Literal
 import casadi as ca
 import numpy as np
 
-from ..reference.fuzzy import Corners, Fuzzy, area_and_moment
+from ..reference.fuzzy import Corners, Fuzzy, area_and_moment, midpoints
 from .block import Block
 from .components import Ends, finish, wandering
 from .errors import ModelError, whole
@@ -194,7 +194,7 @@ class FuzzySystem:
     implication : {"min", "product"}
         Whether a rule cuts its output set off at its strength, or scales it by it.
     aggregation : {"max", "sum"}
-        Whether the sets make a union, which is integrated at `points` equidistant points, or are summed, which is exact.
+        Whether the sets make a union, which is integrated at the middles of `points` equal pieces, or are summed, which is exact.
     points : int
 
     Raises
@@ -293,7 +293,7 @@ class FuzzySystem:
         if self.defuzzify == "centres":
             return
         for output in self.outputs:
-            samples = np.linspace(output.ends[0], output.ends[1], self.points)
+            samples = midpoints(*output.ends, self.points)
             for item in output.sets:
                 a, _, _, d = item.corners
                 seen = self.aggregation == "sum" or np.any((samples > a) & (samples < d))
@@ -366,8 +366,7 @@ class FuzzySystem:
         for w, corners in said:
             highest[corners] = _greatest(highest[corners], w) if corners in highest else w
         moments, areas = [], []
-        low, high = self.outputs[index].ends
-        for y in np.linspace(low, high, self.points):
+        for y in midpoints(*self.outputs[index].ends, self.points):
             union: ca.SX | None = None
             for corners, height in highest.items():
                 degree = float(_degree(float(y), corners))
@@ -403,9 +402,8 @@ class FuzzySystem:
         wide = dict(ranges or {})
         unknown = set(wide) - {item.name for item in self.inputs}
         if unknown:
-            raise ModelError(
-                f"{name}: ranges= names {sorted(unknown)}, which are no inputs; it has {[i.name for i in self.inputs]}"
-            )
+            known = ", ".join(item.name for item in self.inputs)
+            raise ModelError(f"{name}: ranges= names {sorted(unknown)}, which are no inputs; it has {known}")
         block = Block(name, doc=doc or f"fuzzy system of {len(self.rules)} rules")
         taken = [block.input(item.name, unit=item.unit, range=wide.get(item.name)) for item in self.inputs]
         values = self(*taken)

@@ -65,7 +65,7 @@ def output_regulator(
     plant : Plant
         What is controlled.
     point : OperatingPoint or dict
-        x* and u*, where the plant was linearised.
+        x* and u*, where the plant was linearised; of a `ParametricRegulator` x* has to be that of its equations.
     gain : Gain, or (acting inputs, n) array
         K; A - B K has to be stable.
     solution : RegulatorSolution or ParametricRegulator
@@ -103,12 +103,13 @@ def output_regulator(
         that of another plant or point.
     """
     name = name or f"{plant.name}_regulator"
-    nominal = solution.nominal if isinstance(solution, ParametricRegulator) else solution
+    nominal = _nominal(name, solution, generator)
     parts, joined = _generators(name, generator, nominal)
     rate = _common_rate(name, plant, nominal, parts)
     if isinstance(solution, ParametricRegulator):
         from .retunable_regulator import retunable_feedback
 
+        _check_set_point(name, plant, point, solution)
         feedback = retunable_feedback(
             plant,
             gain,
@@ -124,7 +125,7 @@ def output_regulator(
             name=f"{plant.name}_feedback", dt=rate,
         )  # fmt: skip
     if estimator is not None:
-        where = OperatingPoint.at(plant, point)
+        where = solution.point if isinstance(solution, ParametricRegulator) else OperatingPoint.at(plant, point)
         parts["estimator"] = estimator
         joined |= wires("estimator", "feedback", plant.states)
         acting = [item.name for item in _acting(plant, nominal)]
@@ -132,6 +133,33 @@ def output_regulator(
     parts["feedback"] = feedback
     text = doc or f'output regulator of the plant "{plant.name}": follows {", ".join(nominal.model.outputs)}'
     return connect(parts, joined, name, settled=True, doc=text)
+
+
+def _nominal(owner: str, solution: Any, generator: Any) -> RegulatorSolution:
+    """Return the numeric solution; refuse what stands in the wrong place."""
+    hints = {
+        "solution": "francis(linearise(plant, point), exosystem)",
+        "generator": "an observer of the exosystem, kalman_exosystem(exosystem, ...) or high_gain_exosystem(...)",
+    }
+    nominal = solution.nominal if isinstance(solution, ParametricRegulator) else solution
+    observers = list(generator.values()) if isinstance(generator, Mapping) else [generator]
+    for what, items, kind in (("solution", [nominal], RegulatorSolution), ("generator", observers, Block)):
+        for item in items:
+            if not isinstance(item, kind):
+                raise ModelError(f"{owner}: the {what} is of type {type(item).__name__}; give {hints[what]}")
+    assert isinstance(nominal, RegulatorSolution)
+    return nominal
+
+
+def _check_set_point(owner: str, plant: Plant, point: Mapping[Any, Any], solution: ParametricRegulator) -> None:
+    """Refuse a set point that is not the one that u*(p) holds."""
+    mine, theirs = OperatingPoint.at(plant, point).states, solution.point.states
+    for name, value in mine.items():
+        if name in theirs and not np.allclose(value, theirs[name], rtol=1e-9, atol=1e-12):
+            raise ModelError(
+                f"{owner}: the point has {name} = {value}, and the regulator equations were solved for the set point {theirs[name]}"
+                "; give the point that parametric_francis was given"
+            )
 
 
 def _generators(

@@ -205,22 +205,57 @@ def kalman_exosystem(
         together=together,
         name=name,
     )
+    made = _filter_of(
+        plant, exosystem, process_variance, measurement_variance, initial_variance, steady, together, name, doc, options
+    )
+    made.notes += _without_noise(exosystem, process_variance)
+    return _observes(made, exosystem)
+
+
+def _without_noise(exosystem: Exosystem, process_variance: Any) -> list[str]:
+    """Return what has to be said of signals whose process has no noise."""
+    still = [
+        signal
+        for signal, columns in signal_groups(exosystem)
+        if not any(_of_signal("", "process_variance", process_variance, signal, len(columns)))
+    ]
+    if not still:
+        return []
+    return [
+        f"No process noise for {', '.join(still)}: the gain decays like 1/k, and a reading moves the estimate less and less; a "
+        "reference that is changed one day is then not followed. Give process_variance where it may be, see bandwidth."
+    ]
+
+
+def _filter_of(
+    plant: Plant,
+    exosystem: Exosystem,
+    process_variance: Any,
+    measurement_variance: Any,
+    initial_variance: float,
+    steady: bool,
+    together: bool,
+    name: str,
+    doc: str,
+    options: dict[str, Any],
+) -> Block:
+    """Return the filter of a kind."""
     if together:
         if steady:
             raise ModelError(f"{name}: with steady=True all readings come together anyway; leave out together=True")
         _one_noise(name, exosystem, process_variance, measurement_variance)
         text = doc or f"Kalman filter as the generator of {', '.join(exosystem.signals)}, read together"
-        return _observes(shared_covariance.build(plant, exosystem, initial_variance, name, text, options), exosystem)
+        return shared_covariance.build(plant, exosystem, initial_variance, name, text, options)
     if steady:
         if options:
             raise ModelError(
                 f"{name}: {', '.join(options)} is for a filter with a covariance; leave it out, or steady=True"
             )
         text = doc or f"Kalman filter in steady state as the generator of {', '.join(exosystem.signals)}"
-        return _observes(steady_state_kalman_filter(plant, name=name, doc=text), exosystem)
+        return steady_state_kalman_filter(plant, name=name, doc=text)
     variances = {state.signal.name: float(initial_variance) for state in plant.states}
     text = doc or f"Kalman filter as the generator of {', '.join(exosystem.signals)}"
-    return _observes(kalman_filter(plant, initial_variance=variances, name=name, doc=text, **options), exosystem)
+    return kalman_filter(plant, initial_variance=variances, name=name, doc=text, **options)
 
 
 def _one_noise(name: str, exosystem: Exosystem, process_variance: Any, measurement_variance: Any) -> None:

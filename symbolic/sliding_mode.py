@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -216,6 +216,7 @@ class _Channel:
     numbers: dict[str, float]
     least: float | None
     limits: Ends | None
+    wraps: bool
 
     @property
     def name(self) -> str:
@@ -237,6 +238,7 @@ def sliding_mode(
     switching: Any,
     least: Mapping[Any, float] | None = None,
     saturate: bool | Mapping[Any, Ends] = False,
+    wrapped: Collection[Any] = (),
     name: str = "",
     doc: str = "",
 ) -> Block:
@@ -267,6 +269,8 @@ def sliding_mode(
     saturate : bool or dict
         True: each command is held within the range of its input (CLAMPED); a dict: input -> (low, high) that it is held within.
         Otherwise a call with a command outside its range is refused (OVERFLOW).
+    wrapped : collection
+        Outputs whose error is wrapped to [-pi, pi), beside those that were declared with ``angle=True``.
     name, doc : str
         Name of the block, default ``<plant>_sliding_mode``, and its meaning.
 
@@ -304,7 +308,7 @@ def sliding_mode(
     """
     name = name or f"{plant.name}_sliding_mode"
     source = _continuous(name, plant)
-    channels = _channels(name, source, commands, (surface, mu, gain, switching), least or {}, saturate)
+    channels = _channels(name, source, commands, (surface, mu, gain, switching), least or {}, saturate, wrapped)
     block = Block(
         name, doc=doc or f'sliding mode law of the plant "{plant.name}": {", ".join(c.name for c in channels)}'
     )
@@ -355,7 +359,7 @@ def _continuous(name: str, plant: Plant) -> Plant:
 
 def _channels(
     name: str, plant: Plant, commands: Mapping[Any, Any], given: tuple[Any, Any, Any, Any], least: Mapping[Any, float],
-    saturate: bool | Mapping[Any, Ends],
+    saturate: bool | Mapping[Any, Ends], wrapped: Collection[Any],
 ) -> list[_Channel]:  # fmt: skip
     """Return the channels, derived and judged."""
     if not isinstance(commands, Mapping) or not commands:
@@ -372,7 +376,10 @@ def _channels(
         )
     floors = {name_of(key): value for key, value in least.items()}
     ends = {name_of(key): value for key, value in saturate.items()} if isinstance(saturate, Mapping) else {}
-    for what, keys, known in (("least", floors, names), ("saturate", ends, [second for _, second in pairs])):
+    turning = {name_of(key) for key in wrapped}
+    for what, keys, known in (
+        ("least", set(floors), names), ("saturate", set(ends), [second for _, second in pairs]), ("wrapped", turning, names)
+    ):  # fmt: skip
         if set(keys) - set(known):
             raise ModelError(f"{name}: {what}= names {sorted(set(keys) - set(known))}; it may name {', '.join(known)}")
     answer: list[_Channel] = []
@@ -394,7 +401,9 @@ def _channels(
         signal = symbol.signal
         within = (signal.low[0], signal.high[0]) if saturate is True else _within(name, signal, ends.get(command))
         floor = _floor(name, plant, state, g, floors.get(output), answer)
-        answer.append(_Channel(state, symbol, rate, f, g, term, numbers, floor, within))
+        answer.append(
+            _Channel(state, symbol, rate, f, g, term, numbers, floor, within, state.signal.angle or output in turning)
+        )
     return answer
 
 
@@ -590,11 +599,11 @@ def _law(
     wide = _held_at(own)
     if wide is not None:
         outputs[f"input_gain_{q}"] = g
-        limits[f"input_gain_{q}"] = wide
+        limits[f"input_gain_{q}"] = (wide[0], None) if wide[0] > 0 else (None, wide[1])
         signals.append(Signal(f"input_gain_{q}", low=(wide[0],), high=(wide[1],), doc=f"g of {q}, held at its least"))
-        g = ca.fmin(ca.fmax(g, wide[0]), wide[1])
+        g = ca.fmax(g, wide[0]) if wide[0] > 0 else ca.fmin(g, wide[1])
     e = taken[q] - aim[0]
-    e = wrap(e) if signal.angle else e
+    e = wrap(e) if own.wraps else e
     slope = rate - aim[1]
     s = slope + coefficient * e
     term = K * own.switching(s, width)
@@ -650,7 +659,7 @@ def _oracle(plant: Plant, channels: list[_Channel]) -> reference.SlidingMode:
         tuple(
             reference.Channel(
                 own.name, own.state.error_at.start, own.command.signal.name, columns[own.command.signal.name],
-                own.state.signal.angle, own.switching.kind,
+                own.wraps, own.switching.kind,
                 own.switching.system.reference() if own.switching.system is not None else None, _held_at(own), own.limits,
             )
             for own in channels

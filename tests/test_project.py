@@ -149,6 +149,7 @@ DOCTESTED = [
     "plantc.symbolic.design",
     "plantc.symbolic.fuzzy",
     "plantc.symbolic.intervals",
+    "plantc.symbolic.piecewise",
     "plantc.symbolic.power_series",
     "plantc.symbolic.regulator_equations",
     "plantc.symbolic.regulator_map",
