@@ -456,8 +456,9 @@ def jump_matrix_estimator(
     name, doc : str, optional
         Default name ``<plant>_jump_estimator``.
     **options
-        As for `extended_kalman_filter`, but that by default a variance has no floor if it is of a nonlinearity, which is known
-        exactly where it saturates, or starts at zero. With ``form="ud"`` all have, and none may start at zero.
+        As for `extended_kalman_filter`. The default `form` is "joseph", since the jump makes P singular; and by default a
+        variance has no floor if it is of a nonlinearity, which is known exactly where it saturates, or starts at zero. With
+        ``form="ud"`` all have a floor, and none may start at zero.
 
     Returns
     -------
@@ -474,7 +475,8 @@ def jump_matrix_estimator(
         raise ModelError(f"{plant.name}: a is {a!r}; take one of {', '.join(map(repr, get_args(Choice)))}")
     if not isinstance(initial_variance, Mapping):
         initial_variance = {state.signal.name: initial_variance for state in plant.states}
-    if options.get("form", "conventional") != "ud":
+    # the jump makes P singular, and Joseph's form takes that well
+    if options.setdefault("form", "joseph") != "ud":
         # on a saturated branch, or by a zero of the online gain, the variance of a nonlinearity is exactly zero
         known = [name_of(key) for key, value in initial_variance.items() if np.any(np.asarray(value) == 0)]
         options.setdefault("variance_floor", dict.fromkeys((*model.clamps, *known), 0.0))

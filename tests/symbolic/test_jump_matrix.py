@@ -500,34 +500,31 @@ def test_no_noise_at_all_and_an_input_that_does_nothing():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("precision", ["double", "float"])
 @pytest.mark.parametrize("name", list(jump_systems.SYSTEMS))
-def test_every_estimator_is_cross_checked(name, precision):
+def test_every_estimator_is_cross_checked(name):
+    """In single precision beside double, the program in Python and NumPy."""
     system = jump_systems.SYSTEMS[name]()
-    for choice in ("jacobian", "identity"):
-        block = jump_matrix_estimator(system.model, choice, initial_variance=1.0, around=system.start)
-        check = cross_check(block, precision)
-        assert check.passed, (choice, [item for item in check.results if not item.passed])
+    check = cross_check(
+        jump_matrix_estimator(system.model, initial_variance=1.0, around=system.start), "float", steps=40
+    )
+    assert check.passed, [item for item in check.results if not item.passed]
 
 
 @pytest.mark.slow
 def test_the_other_blocks_are_cross_checked():
-    """The simulations; the online gain, in double; a transition that is given; the other forms of the covariance."""
+    """Simulations; the identity; a transition that is given; the other forms of the covariance."""
     spring, relay, loop = jump_systems.spring(), jump_systems.relay(), jump_systems.saturating_amplifier()
     closed = loop.model.closed_transition([loop.gain])
     common = {"initial_variance": 1.0, "around": spring.start}
     blocks = [
-        jump_simulation(spring.model, around=spring.start),
         jump_simulation(relay.model),
-        jump_matrix_estimator(spring.model, "online", **common),
-        jump_matrix_estimator(relay.model, "online", initial_variance=1.0),
+        jump_matrix_estimator(relay.model, "identity", initial_variance=1.0),
         jump_matrix_estimator(loop.model, initial_variance=1.0, covariance_transition=closed),
-        jump_matrix_estimator(spring.model, form="ud", **common),
-        jump_matrix_estimator(spring.model, form="joseph", **common),
         jump_matrix_estimator(spring.model, "identity", form="ud", **common),
+        jump_matrix_estimator(spring.model, form="conventional", **common),
     ]
     for block in blocks:
-        check = cross_check(block)
+        check = cross_check(block, steps=20)
         assert check.passed, (block.name, [item for item in check.results if not item.passed])
 
 
