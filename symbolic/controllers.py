@@ -127,7 +127,15 @@ def state_feedback(
     if not accept_unstable:
         _check_stable(plant, where, gain.dt if isinstance(gain, Gain) else None, K)
     block = Block(name, doc=doc or f'state feedback of the plant "{plant.name}": u = u* - K (x - x*)')
-    taken = _declare_feedback(block, plant, where, K)
+    formula = _give_law(block, plant, _declare_feedback(block, plant, where, K), saturate)
+    finish(block, {"step": formula}, _around(plant, where, K, saturate))
+    if isinstance(gain, Gain):
+        block.design = _design(block, gain)
+    return block
+
+
+def _give_law(block: Block, plant: Plant, taken: dict[str, Symbol], saturate: bool) -> reference.StateFeedback:
+    """Give a block the entry `step`; return its oracle."""
     free, signals = _feedback_law(block, plant, taken)
     block.entry(
         "step",
@@ -147,10 +155,7 @@ def state_feedback(
         for state in plant.states
     )
     outputs = tuple((item.name, item.size, np.array(item.low), np.array(item.high)) for item in signals)
-    finish(block, {"step": reference.StateFeedback(kinds, outputs, saturate)}, _around(plant, where, K, saturate))
-    if isinstance(gain, Gain):
-        block.design = _design(block, gain)
-    return block
+    return reference.StateFeedback(kinds, outputs, saturate)
 
 
 UNSTABLE = 1.0e-6

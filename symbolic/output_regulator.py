@@ -106,24 +106,13 @@ def output_regulator(
     nominal = _nominal(name, solution, generator)
     parts, joined = _generators(name, generator, nominal)
     rate = _common_rate(name, plant, nominal, parts)
+    options: dict[str, Any] = {
+        "saturate": saturate, "accept_unstable": accept_unstable, "name": f"{plant.name}_feedback", "dt": rate,
+    }  # fmt: skip
     if isinstance(solution, ParametricRegulator):
-        from .retunable_regulator import retunable_feedback
-
-        _check_set_point(name, plant, point, solution)
-        feedback = retunable_feedback(
-            plant,
-            gain,
-            solution,
-            saturate=saturate,
-            accept_unstable=accept_unstable,
-            name=f"{plant.name}_feedback",
-            dt=rate,
-        )
+        feedback = _retunable(name, plant, point, gain, solution, options)
     else:
-        feedback = regulator_feedback(
-            plant, point, gain, solution, saturate=saturate, tunable=tunable, accept_unstable=accept_unstable,
-            name=f"{plant.name}_feedback", dt=rate,
-        )  # fmt: skip
+        feedback = regulator_feedback(plant, point, gain, solution, tunable=tunable, **options)
     if estimator is not None:
         where = solution.point if isinstance(solution, ParametricRegulator) else OperatingPoint.at(plant, point)
         parts["estimator"] = estimator
@@ -133,6 +122,21 @@ def output_regulator(
     parts["feedback"] = feedback
     text = doc or f'output regulator of the plant "{plant.name}": follows {", ".join(nominal.model.outputs)}'
     return connect(parts, joined, name, settled=True, doc=text)
+
+
+def _retunable(
+    owner: str,
+    plant: Plant,
+    point: Mapping[Any, Any],
+    gain: Any,
+    solution: ParametricRegulator,
+    options: dict[str, Any],
+) -> Block:
+    """Return the law that follows the parameters, at the set point of its equations."""
+    from .retunable_regulator import retunable_feedback
+
+    _check_set_point(owner, plant, point, solution)
+    return retunable_feedback(plant, gain, solution, **options)
 
 
 def _nominal(owner: str, solution: Any, generator: Any) -> RegulatorSolution:
