@@ -204,21 +204,16 @@ def seen_by(name: str) -> str:
 # -- what it follows --------------------------------------------------------------------------------------------------
 
 
-def trajectory(*, ramp: bool = False, name: str = "trajectory") -> Block:
+def trajectory(name: str = "trajectory") -> Block:
     """Return the reference of section 5 as a block that counts its steps: circle, altitude and yaw with their derivatives.
 
-    Parameters
-    ----------
-    ramp : bool
-        Whether the altitude is 5 t instead of 5; `altitude` and `climb` are run-time parameters.
-    name : str
-        Of the block.
+    `frequency`, `radius`, `altitude`, `climb` and `yaw` are run-time parameters.
     """
     block = Block(name, doc="a circle at an altitude that may climb, and a yaw, with first and second derivatives")
     w = block.parameter("frequency", pi / 4, unit="rad/s", range=(0, 10), doc="of the circle")
     radius = block.parameter("radius", 0.5, unit="m", range=(0, 10))
-    altitude = block.parameter("altitude", 0.0 if ramp else 5.0, unit="m", range=(-100, 100), doc="at the start")
-    climb = block.parameter("climb", 5.0 if ramp else 0.0, unit="m/s", range=(-10, 10))
+    altitude = block.parameter("altitude", 5.0, unit="m", range=(-100, 100), doc="at the start")
+    climb = block.parameter("climb", 0.0, unit="m/s", range=(-10, 10))
     yaw = block.parameter("yaw", pi / 4, unit="rad", range=(-3.2, 3.2))
     # the first step of a loop is that of the first reading, one step after the start
     count = block.memory("count", initial=1.0, range=(0, 1e7), doc="steps since the start")
@@ -254,9 +249,7 @@ def led(controller: Block, follows: Block, name: str = "led") -> Block:
 
 
 @cache
-def loop(
-    law: str = "FSMC", which: str = "A", *, estimated: bool = True, ramp: bool = False, read: tuple[str, ...] = READ
-) -> ClosedLoop:
+def loop(law: str = "FSMC", which: str = "A", *, estimated: bool = True, read: tuple[str, ...] = READ) -> ClosedLoop:
     """Return the whole scheme with a vehicle whose mass and inertias are parameters, as one block that is compiled.
 
     Parameters
@@ -267,8 +260,6 @@ def loop(
         "A" or "B", of plant, filter and law.
     estimated : bool
         Whether the law is given the estimate; else the true state.
-    ramp : bool
-        See `trajectory`.
     read : tuple of str
         The states that are read.
     """
@@ -276,7 +267,7 @@ def loop(
     own = ("mass", "inertia_x", "inertia_y", "inertia_z")
     truth = sampled(vehicle(values=values, tunable=own, disturbed=True, seen=not estimated, read=read))
     pilot = autopilot(law, values, read=read) if estimated else control_law(law, values)
-    controller = led(pilot, trajectory(ramp=ramp))
+    controller = led(pilot, trajectory())
     readings: dict[str, str] = {}
     if not estimated:
         for signal in controller.entries["step"].inputs:
@@ -300,8 +291,10 @@ class Flight:
     ----------
     steps : int
         How many, the first at t = 0.
-    law, which, estimated, ramp, read
+    law, which, estimated, read
         See `loop`.
+    ramp : bool
+        Whether the altitude to follow is 5 t (Fig. 13), not 5.
     tuning : str
         Of the filter.
     X, estimate : tuple of 12 float
@@ -326,9 +319,15 @@ class Flight:
     read: tuple[str, ...] = READ
     params: Mapping[str, Any] | None = None
 
+    @property
+    def changed(self) -> dict[str, Any]:
+        """The parameters that are changed, by part: `ramp`, then `params`."""
+        climbing = {"trajectory.altitude": 0.0, "trajectory.climb": 5.0} if self.ramp else {}
+        return {**climbing, **(self.params or {})}
+
     def loop(self) -> ClosedLoop:
         """Return the loop that is flown; the same one for all flights that differ in numbers only."""
-        return loop(self.law, self.which, estimated=self.estimated, ramp=self.ramp, read=self.read)
+        return loop(self.law, self.which, estimated=self.estimated, read=self.read)
 
 
 @cache
@@ -343,8 +342,8 @@ def _first(law: str, which: str) -> NativeView:
 
 
 @cache
-def _reference(ramp: bool) -> NativeView:
-    return NativeView(trajectory(ramp=ramp))
+def _course() -> NativeView:
+    return NativeView(trajectory())
 
 
 def _own(params: Mapping[str, Any], part: str) -> dict[str, Any]:
@@ -367,8 +366,8 @@ def first_step(flight: Flight) -> tuple[dict[str, Any], dict[str, Any]]:
     The loop begins with the plant moved and read. What is applied until then, and where the command filters are after it, are
     parameters of the loop.
     """
-    view, follows = _first(flight.law, flight.which), _reference(flight.ramp)
-    given = flight.params or {}
+    view, follows = _first(flight.law, flight.which), _course()
+    given = flight.changed
     seen = dict(zip(STATES, flight.estimate if flight.estimated else flight.X, strict=True))
     course = follows.params(**_own(given, "trajectory"), count_0=0.0)
     wanted = follows.call("step", follows.init(course), follows.inputs("step", {}), course).outputs
@@ -412,7 +411,7 @@ def settings(flight: Flight) -> dict[str, Any]:
         "trajectory": "controller.trajectory",
         "plant": "plant",
     }
-    for key, value in (flight.params or {}).items():
+    for key, value in flight.changed.items():
         part, _, own = key.partition(".")
         answer[f"{places[part]}.{own}"] = value
     return answer
@@ -477,7 +476,7 @@ def fly(flight: Flight) -> Run:
     X = states("plant", flight.X)
     w = np.vstack([first["mixer.speed"], column(answer.outputs, f"{pilot}.mixer.speed")])
     sines = np.abs(rows(("allocation.sine_roll", "allocation.sine_pitch")))
-    most = float((flight.params or {}).get("law.allocation.limit", STEEPEST))
+    most = float(flight.changed.get("law.allocation.limit", STEEPEST))
     return Run(
         X,
         states("controller.pilot.estimator", flight.estimate) if flight.estimated else X,
