@@ -18,6 +18,8 @@ from plantc.examples.fsmc_autopilot import autopilot, control_law
 from plantc.examples.fsmc_quadrotor import ekf, mixer
 
 TARGETS = ("cortex-m4", "cortex-m7", "rv32")
+STEPS = 20
+"""Of the nominal trace; an export has 100."""
 
 
 BLOCKS = {"autopilot": autopilot, "filter": ekf, "law": control_law, "mixer": mixer}
@@ -31,9 +33,7 @@ def measure(targets: tuple[str, ...] = TARGETS, which: Collection[str] = tuple(B
     for name, block in blocks.items():
         text = emit(block, "float")
         check = cross_check(
-            block,
-            "float",
-            views=make_views(block, "float", NativeView(block, "float", text=text)),
+            block, "float", steps=STEPS, views=make_views(block, "float", NativeView(block, "float", text=text))
         )
         found = measure_targets(block, options, text, check)
         failed = [item.name for item in (*check.failures, *[item for item in found.checks if not item.passed])]
