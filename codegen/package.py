@@ -256,6 +256,8 @@ def export(
         If there is no C compiler.
     TargetError
         If a target is not known, its tools are missing, or the code does not fit it.
+    ModelError
+        If the block, or a part of it, is for simulation only.
     FolderError
         If the folder cannot be written, or holds someone else's files.
     ExportError
@@ -264,6 +266,7 @@ def export(
     report = progress or (lambda what, done, total: None)
     chosen = options or Options(Precision(precision), mathematics=mathematics)
     precision = chosen.precision.name
+    _refuse_simulation_only(block)
     folder = Path(out) / block.name
     check_folder_is_free(folder, force=force)
     chosen_targets(chosen)  # a missing tool is told before the work
@@ -315,6 +318,14 @@ def export(
     if key:
         keep(key, Kept(files, check.results, check.statuses, evidence))
     return Export(block, chosen, folder, files, check, evidence)
+
+
+def _refuse_simulation_only(block: Block) -> None:
+    """Raise a ModelError if a block, or a part of it, has no place on a target."""
+    if block.simulation_only:
+        raise ModelError(f"{block.name}: it is for simulation only and is not exported: {block.simulation_only}")
+    for part in block.parts.values():
+        _refuse_simulation_only(part)
 
 
 def failure_text(block: Block, check: CrossCheck) -> str:

@@ -38,6 +38,7 @@ from .symbolic.controllers import (
 from .symbolic.design import Gain, ackermann, lqr, place, place_chains
 from .symbolic.estimators import extended_kalman_filter, kalman_filter, steady_state_kalman_filter
 from .symbolic.james_stein import james_stein_estimator
+from .symbolic.jump_matrix import JumpModel, jump_matrix_estimator, jump_model, jump_simulation
 from .symbolic.output_regulator import output_regulator
 from .symbolic.power_series import regulator_series
 from .symbolic.regulator_equations import francis
@@ -47,6 +48,7 @@ __all__ = [
     "Block",
     "Gain",
     "InterpretView",
+    "JumpModel",
     "ModelError",
     "NativeView",
     "OperatingPoint",
@@ -63,6 +65,9 @@ __all__ = [
     "extended_kalman_filter",
     "francis",
     "james_stein_estimator",
+    "jump_matrix_estimator",
+    "jump_model",
+    "jump_simulation",
     "kalman_filter",
     "linearise",
     "low_pass",

@@ -89,6 +89,7 @@ class Exercise:
             truth = following
             if isinstance(self.model.dt, tuple):
                 inputs["dt"] = np.array([dt])
+            inputs |= self.carried(truth)
             if kind < 0.25:
                 told = yield "predict", inputs
                 continue
@@ -112,9 +113,16 @@ class Exercise:
             P = unpacked(
                 np.concatenate([packed(P[np.ix_(block, block)]) for block in self.model.blocks]), self.model.blocks
             )
-        return {
-            **split_state(self.model, self.near(rng)), "covariance": packed(P, self.model.blocks), **counters
-        }  # fmt: skip
+        fields = {**split_state(self.model, self.near(rng)), "covariance": packed(P, self.model.blocks), **counters}
+        return fields | self.carried(self.near(rng)) if self.model.carried else fields
+
+    def carried(self, truth: Array) -> dict[str, Array]:
+        """Return what memory carries from one step to the next, of a true state."""
+        return {item.name: truth[at].copy() for item in self.model.carried for at in [self.at(item.of)]}
+
+    def at(self, name: str) -> slice:
+        """Return the place of a state in the state vector."""
+        return next(at for state, at, _ in self.model.places if state.name == name)
 
     # -- parts --------------------------------------------------------------------------------------------------------
 

@@ -27,7 +27,19 @@ from .discretisation import (
     wrapped,
     wrapped_angle,
 )
-from .model import Array, InputModel, Model, Precision, SensorModel, packed, split_state, stack, stack_inputs, unpacked
+from .model import (
+    Array,
+    InputModel,
+    Model,
+    Precision,
+    SensorModel,
+    packed,
+    split_state,
+    stack,
+    stack_inputs,
+    strength,
+    unpacked,
+)
 
 SMALLEST_VARIANCE = 1.0e-20
 """Least innovation variance, and least pivot of a noise matrix."""
@@ -166,12 +178,14 @@ class Filter:
         variances = stack([f"variance_{state.name}_0" for state in self.model.states], self.params, self.precision)
         status, P = self.held(np.diag(variances))
         counters = {f"rejected_{sensor.name}": np.zeros(1, dtype=np.uint32) for sensor in self.model.sensors}
-        return status, {**split_state(self.model, x), "covariance": packed(P, self.model.blocks), **counters}, {}
+        kept = {item.name: self.params[f"{item.name}_0"].copy() for item in self.model.carried}
+        after = {**split_state(self.model, x), **kept, "covariance": packed(P, self.model.blocks), **counters}
+        return status, after, {}
 
     def predict(self, memory: Memory, inputs: Mapping[str, Any]) -> tuple[Status, Memory, dict[str, Array]]:
         """x+ = f(x, u), P+ = F P F' + Q (Bar-Shalom et al., eq. 10.3.2-4)."""
         model = self.model
-        self.judge_inputs(list(model.inputs), inputs)
+        self.judge_inputs([*model.inputs, *model.carried], inputs)
         if isinstance(model.dt, tuple):
             low, high = model.dt
             self.judge_inputs([InputModel("dt", 1, np.array([low]), np.array([high]))], inputs)
@@ -180,11 +194,15 @@ class Filter:
             dt = self.precision(model.dt)
         x, P = self.estimate(memory)
         u = stack_inputs(model, inputs, self.precision)
-        Q = self.accepted_noise(process_covariance(model, x, u, self.p, dt, self.params))
+        Q = process_covariance(model, x, u, self.p, dt, self.params)
         x_after, F = transition(model, x, u, self.p, dt)
-        status, P = self.held(F @ P @ F.T + Q)
+        if model.error_step is not None:
+            F, G = model.error_step(x, u, self.p, memory, inputs)
+            Q = G @ strength(model.noises, self.params, self.precision) @ G.T
+        status, P = self.held(F @ P @ F.T + self.accepted_noise(Q))
         self.judge(P, x_after)
-        return status, self.with_estimate(memory, x_after, P), {}
+        kept = {item.name: np.array(inputs[item.name], dtype=self.precision).ravel() for item in model.carried}
+        return status, {**self.with_estimate(memory, x_after, P), **kept}, {}
 
     def update(
         self, sensor: SensorModel, memory: Memory, inputs: Mapping[str, Any], gate: Any
@@ -256,7 +274,8 @@ class Filter:
 
     def memory(self, given: Mapping[str, Any]) -> Memory:
         """Return memory fields in the working precision."""
-        fields = [state.name for state in self.model.states] + ["covariance"]
+        carried = [item.name for item in self.model.carried]
+        fields = [*(state.name for state in self.model.states), *carried, "covariance"]
         answer = {name: np.array(given[name], dtype=self.precision).ravel() for name in fields}
         for sensor in self.model.sensors:
             name = f"rejected_{sensor.name}"

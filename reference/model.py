@@ -71,6 +71,19 @@ class InputModel:
 
 
 @dataclass(frozen=True, eq=False)
+class CarriedModel(InputModel):
+    """An input of `predict` that memory keeps until the next one, under its name; the parameter ``<name>_0`` starts it.
+
+    Attributes
+    ----------
+    of : str
+        The state whose true value it is.
+    """
+
+    of: str = ""
+
+
+@dataclass(frozen=True, eq=False)
 class SensorModel:
     """A sensor z = h(x, u, p, v) + noise.
 
@@ -137,6 +150,11 @@ class Model:
     blocks : tuple of tuple of int
         Components of the error that the covariance correlates; empty if it correlates all. Only these blocks are kept in
         memory; that nothing is lost is checked here, call by call.
+    error_step : callable or None
+        (x, u, p, memory, inputs) -> (F, G): the covariance is propagated by F P F' + G S G', S the strength of the noises;
+        None where F and G are the derivatives of the dynamics.
+    carried : tuple of CarriedModel
+        What `error_step` reads beside the state.
     """
 
     states: tuple[StateModel, ...]
@@ -153,6 +171,8 @@ class Model:
     floor: Array
     ceiling: Array
     blocks: Blocks = ()
+    error_step: Callable[..., tuple[Array, Array]] | None = None
+    carried: tuple[CarriedModel, ...] = ()
 
     @cached_property
     def error_size(self) -> int:

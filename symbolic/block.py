@@ -196,6 +196,7 @@ class Block:
         self.design: Design | None = None
         self.tables: dict[str, Callable[[], Table]] = {}  # title -> what an export measures where it is asked to
         self.float_bound = 0.05
+        self.simulation_only = ""  # why it cannot be exported, if it cannot
         self.sample_time: float | None = None
         self.source_hash = ""
         self.source = place_of_call()

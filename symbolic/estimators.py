@@ -15,7 +15,7 @@ from scipy.sparse.csgraph import connected_components
 
 from ..reference import estimators as textbook
 from .block import Block, DerivativeCheck, Scenario
-from .derivation import Derivation, dynamics_equations, known_sources, name_of, plant_equations
+from .derivation import Derivation, Reads, dynamics_equations, known_sources, name_of, plant_equations
 from .discretisation import process_covariance, transition
 from .errors import ModelError
 from .expressions import equation_text, tape
@@ -117,9 +117,66 @@ def extended_kalman_filter(
     ModelError
         If the plant is continuous, has no sensor, or an initial variance is missing.
     """
+    return filter_of(
+        plant,
+        None,
+        initial_variance=initial_variance,
+        around=around,
+        gate=gate,
+        reject_limit=reject_limit,
+        inflation=inflation,
+        variance_floor=variance_floor,
+        variance_ceiling=variance_ceiling,
+        form=form,
+        correlated=correlated,
+        float_bound=float_bound,
+        name=name or f"{plant.name}_ekf",
+        doc=doc or f'Extended Kalman filter of the plant "{plant.name}"',
+    )
+
+
+@dataclass(frozen=True)
+class CovarianceStep:
+    """What a filter propagates its covariance by in place of the derivatives of the dynamics: P = F P F' + G S G'.
+
+    Attributes
+    ----------
+    F, G : casadi.SX (n, n), (n, noises)
+        Expressions of the plant's states, inputs and parameters, and of `carried`; S is the strength of the process noises.
+    carried : tuple of (Symbol, Symbol)
+        Inputs of `predict` beside the plant's, each with the field of the memory, of the same name, that keeps it for the
+        next one. A parameter ``<name>_0`` starts it, by default the nominal value of the state of that name behind "true_".
+    reference : (callable, tuple of reference.CarriedModel)
+        The same for the oracle, independently; see `reference.Model.error_step` and `carried`.
+    """
+
+    F: ca.SX
+    G: ca.SX
+    carried: tuple[tuple[Symbol, Symbol], ...]
+    reference: tuple[Any, tuple[Any, ...]]
+
+
+def filter_of(
+    plant: Plant,
+    step: CovarianceStep | None,
+    *,
+    initial_variance: Mapping[Any, Any],
+    around: Mapping[Any, Any] | None = None,
+    gate: Mapping[str, float] | None = None,
+    reject_limit: int = 0,
+    inflation: float = 100.0,
+    variance_floor: Mapping[Any, float] | float | None = None,
+    variance_ceiling: Mapping[Any, float] | float | None = None,
+    form: str = "conventional",
+    correlated: str = "structural",
+    float_bound: float = 0.05,
+    name: str,
+    doc: str,
+) -> Block:
+    """Return the extended Kalman filter of a discrete plant, or with `step` one that propagates its covariance otherwise."""
     options = _Options(
-        name or f"{plant.name}_ekf",
-        doc or f'Extended Kalman filter of the plant "{plant.name}"',
+        name,
+        doc,
         initial_variance,
         around or {},
         gate or {},
@@ -131,7 +188,7 @@ def extended_kalman_filter(
         form,
         correlated,
     )
-    return _Builder(plant, options).build()
+    return _Builder(plant, options, step).build()
 
 
 def kalman_filter(
@@ -276,8 +333,10 @@ class _Measurement:
 class _Builder(Derivation):
     """Derives everything, then assembles the Block."""
 
-    def __init__(self, plant: Plant, options: _Options):
+    def __init__(self, plant: Plant, options: _Options, step: CovarianceStep | None = None):
         name = options.name
+        self.step = step
+        self.carried = step.carried if step is not None else ()
         for what in ("initial_variance", "around", "gate"):
             given = getattr(options, what)
             if not isinstance(given, Mapping):
@@ -285,7 +344,7 @@ class _Builder(Derivation):
         super().__init__(plant, name, options.doc, options.around)
         self.options = options
         self.n = plant.error_size
-        self.floor = self._per_error(options.floor, "variance_floor", 1e-30, 1e30)
+        self.floor = self._per_error(options.floor, "variance_floor", 0.0 if options.form != "ud" else 1e-30, 1e30)
         self.ceiling = self._per_error(options.ceiling, "variance_ceiling", 1e-30, 1e15)
         if any(low >= high for low, high in zip(self.floor, self.ceiling, strict=True)):
             raise ModelError(f"{name}: a variance floor is not below its ceiling; lower variance_floor")
@@ -294,6 +353,8 @@ class _Builder(Derivation):
             raise ModelError(f"{name}: correlated is {options.correlated!r}; take 'structural' or 'all'")
         self._declare_noises()
         self.following, self.F = transition(plant)
+        if step is not None:
+            self.F = step.F
         self.Q = self.process_noise()
         self.measurements = [self.measurement(sensor) for sensor in plant.sensors]
         blocks = self._blocks() if options.correlated == "structural" else ()
@@ -332,6 +393,22 @@ class _Builder(Derivation):
                 )
             answer += items
         return tuple(answer)
+
+    def _initial_variances(self) -> tuple[float, ...]:
+        """Return the variances of the initial error; zero is one only where the floor is."""
+        least = min(self.lowest, default=LOWEST_VARIANCE)
+        answer = self._per_error(self.options.initial_variance, "initial_variance", least, HIGHEST_VARIANCE)
+        for value, lowest in zip(answer, self.lowest, strict=True):
+            if value < lowest:
+                raise ModelError(
+                    f"{self.options.name}: an initial variance is {value:g}; give at least {lowest:g}, or variance_floor=0"
+                )
+        return answer
+
+    @property
+    def lowest(self) -> tuple[float, ...]:
+        """Least initial variance of each component of the error."""
+        return tuple(0.0 if floor == 0 else LOWEST_VARIANCE for floor in self.floor)
 
     # -- declarations -------------------------------------------------------------------------------------------------
 
@@ -450,15 +527,19 @@ class _Builder(Derivation):
 
     def _declare_memory(self) -> None:
         plant, block = self.plant, self.block
-        variances = self._per_error(
-            self.options.initial_variance, "initial_variance", LOWEST_VARIANCE, HIGHEST_VARIANCE
-        )
+        variances = self._initial_variances()
         self.declare_states()
+        x0, _ = self.nominal()
+        for now, before in self.carried:
+            block.memory_signals.append(before.signal)
+            of = next(s for s in plant.states if s.signal.name == now.signal.name.removeprefix("true_"))
+            start = replace(before.signal, name=f"{now.signal.name}_0", doc=f"initial {before.signal.doc}")
+            block.param_signals.append(replace(start, default=tuple(float(item) for item in x0[of.at])))
         for state in plant.states:
             size = state.error_at.stop - state.error_at.start
             unit = power_of_unit("rad" if state.attitude else state.signal.unit, 2)
             doc = f"variance of the error of {state.signal.name}_0"
-            low, high = (LOWEST_VARIANCE,) * size, (HIGHEST_VARIANCE,) * size
+            low, high = self.lowest[state.error_at], (HIGHEST_VARIANCE,) * size
             default = variances[state.error_at]
             block.param_signals.append(
                 Signal(f"variance_{state.signal.name}_0", size, unit, low, high, doc, default=default)
@@ -507,7 +588,8 @@ class _Builder(Derivation):
         plant = self.plant
         total = ca.SX(self.n, self.n)
         if plant.process_noises:
-            total = process_covariance(plant, self._strength(plant.process_noises))
+            S = self._strength(plant.process_noises)
+            total = process_covariance(plant, S) if self.step is None else self.step.G @ S @ self.step.G.T
         table = {signal.name: symbol for signal, symbol in self.noise_symbols}
         for state in plant.states:
             if state.signal.name in plant.step_variances:
@@ -567,6 +649,9 @@ class _Builder(Derivation):
                 for i in range(state.error_at.stop - state.error_at.start)
             ]
         )
+        for now, _ in self.carried:
+            name, size = now.signal.name, now.signal.size
+            body.append(Assign(Place("next", name), Place("param", f"{name}_0"), size))
         for sensor in plant.sensors:
             body.append(Assign(Place("next", f"rejected_{sensor.signal.name}"), 0.0, 1))
         body += self.form.hold()
@@ -594,7 +679,7 @@ class _Builder(Derivation):
         f_names = tuple(f"f_{i}_{j}" for i, j in f_pattern)
         q_names = tuple(f"q_{i}_{j}" for i, j in q_pattern)
         targets, names = self.next_states()
-        reads = self.step_reads()
+        reads = [*self.step_reads(), *self._carried_reads()]
         f_place, q_place = Place("local", "f"), Place("local", "q")
         outputs = [
             (following, targets, names),
@@ -605,6 +690,8 @@ class _Builder(Derivation):
         how = "x = f(x, u)" if made is None else f"x, F = dx/dx and Q over one step, by {made.method}"
         if made is not None and made.substeps > 1:
             how += f" in {made.substeps} substeps"
+        if self.step is not None:
+            how += "; F and Q are given"
         body: list[Statement] = [
             self.evaluate(
                 "predict",
@@ -614,11 +701,23 @@ class _Builder(Derivation):
                 self._predict_origins(f_pattern, q_pattern),
             ),
             *self.form.propagate(f_place, f_pattern, q_place, q_pattern, f_names, q_names),
+            *[Assign(Place("next", s.signal.name), Place("in", s.signal.name), s.signal.size) for s, _ in self.carried],
             *self.form.hold(),
             self.judge(),
         ]
         doc = "Move the estimate one step ahead."
-        return Entry("predict", tuple(self.step_inputs()), (), tuple(body), doc)
+        inputs = [*self.step_inputs(), *[now.signal for now, _ in self.carried]]
+        return Entry("predict", tuple(inputs), (), tuple(body), doc)
+
+    def _carried_reads(self) -> list[Reads]:
+        """Return what the covariance's own step takes beside the plant's: inputs, and what memory kept of the last ones."""
+        now = [symbol for symbol, _ in self.carried]
+        before = [symbol for _, symbol in self.carried]
+        answer: list[Reads] = []
+        for space, symbols in (("in", now), ("memory", before)):
+            places = [((Place(space, s.signal.name), s.signal.size),) for s in symbols]  # type: ignore[arg-type]
+            answer.append(([ca.SX(symbol) for symbol in symbols], places))
+        return answer
 
     def _update(self, made: _Measurement) -> Entry:
         sensor, n = made.sensor, self.n
@@ -740,7 +839,8 @@ class _Builder(Derivation):
         for state in plant.states:
             said = known_sources(plant.dynamics_sources.get(state.signal.name, ""))
             own = [Origin("dynamics", text, said) for text in equations[state.error_at]]
-            rows += [Origin("derivative", f"row of F = dx/dx: {text}", said) for text in equations[state.error_at]]
+            row = "row of F = dx/dx" if self.step is None else "row of F as it is given"
+            rows += [Origin("derivative", f"{row}: {text}", said) for text in equations[state.error_at]]
             # a quaternion has four elements and three equations
             following += [Origin("dynamics", "; ".join(equations[state.error_at]), said)] * 4 if state.attitude else own
         names = [noise.signal.name for noise in plant.process_noises]
@@ -847,6 +947,8 @@ class _Builder(Derivation):
         model = self.textbook_model(
             [(item.sensor, item.inputs) for item in measurements], self.floor, self.ceiling, self.form.packing.blocks
         )
+        if self.step is not None:
+            model = replace(model, error_step=self.step.reference[0], carried=self.step.reference[1])
         block.oracle = self.form.oracle(model)
         block.scenario = self._scenario(model)
         block.derivative_checks = self._derivative_checks(model, block)
@@ -856,9 +958,7 @@ class _Builder(Derivation):
 
     def _scenario(self, model: textbook.Model) -> Scenario:
         x0, u0 = self.nominal()
-        variances = np.array(
-            self._per_error(self.options.initial_variance, "initial_variance", LOWEST_VARIANCE, HIGHEST_VARIANCE)
-        )
+        variances = np.array(self._initial_variances())
         params = {signal.name: np.array(signal.default) for signal in self.block.param_signals}
         plant = self.plant
         low = np.array([item for symbol in plant.inputs for item in symbol.signal.low])
@@ -878,7 +978,8 @@ class _Builder(Derivation):
     def _derivative_checks(self, model: textbook.Model, block: Block) -> list[DerivativeCheck]:
         """F and each H as the block evaluates them, beside complex step and central differences of f and h."""
         checks = []
-        functions = [("F", block.entries["predict"], "f")]
+        # an F that is given is no derivative of the dynamics
+        functions = [("F", block.entries["predict"], "f")] if self.step is None else []
         functions += [(f"H_{sensor.name}", block.entries[f"update_{sensor.name}"], "h") for sensor in model.sensors]
         for name, entry, local in functions:
             evaluate = next(item for item in entry.body if isinstance(item, Evaluate))

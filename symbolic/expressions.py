@@ -55,6 +55,7 @@ _OPERATIONS = {
     ca.OP_NOT: "not",
     ca.OP_IF_ELSE_ZERO: "if_else_zero",
 }
+_CODES = {name: code for code, name in reversed(_OPERATIONS.items())}  # of two codes for pow the first
 _OPERATION_NAMES = {getattr(ca, word): word[3:].lower() for word in dir(ca) if word.startswith("OP_")}
 
 KINKS = frozenset({"fabs", "sign", "floor", "ceil", "fmin", "fmax", "lt", "le", "eq", "ne", "if_else_zero"})
@@ -115,6 +116,11 @@ def _not_expanded(owner: str, function: ca.Function, reason: str) -> str:
         f"{owner}: the CasADi function {function.name()!r} cannot be expanded into scalar operations ({reason}); "
         "write it with SX operations, without external, interpolant, integrator or solver nodes"
     )
+
+
+def operation_code(operation: str) -> int:
+    """Return CasADi's number of an operation of a tape."""
+    return _CODES[operation]
 
 
 def constants_of(expression: ca.SX) -> list[float]:

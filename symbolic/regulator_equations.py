@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigvals, expm, lu_factor, lu_solve, schur
+from scipy.linalg import eigvals, expm, lu_factor, lu_solve, matrix_balance, schur
 from scipy.sparse import csr_matrix
 
 from .analysis import Linearisation
@@ -230,9 +230,10 @@ class ModeSolvability:
         Of S.
     rank, needed : int
         Rank of the Rosenbrock pencil [A - s I, B; C, D], and its n + m rows: with less, it is solvable for some
-        references and disturbances only.
+        references and disturbances only. It is that of the pencil with rows and columns brought to one size, so that it does
+        not depend on units.
     sigma : float
-        The (n + m)-th singular value of the pencil; zero where p < m.
+        The (n + m)-th singular value of the pencil as it stands, in its units; zero where p < m.
     distance : float
         To the nearest transmission zero of a square plant; infinite if there is none. The gains grow like its inverse. NaN
         where the plant is not square.
@@ -269,12 +270,30 @@ def _modes(plant: LinearModel, eigenvalues: Array) -> tuple[ModeSolvability, ...
     needed, zeros = len(plant.A) + len(plant.C), transmission_zeros(plant)
     answer = []
     for value in _distinct(eigenvalues):
-        sizes = np.linalg.svd(_pencil(plant, value), compute_uv=False)
-        limit = max(needed, len(plant.A) + plant.B.shape[1]) * np.finfo(float).eps * float(np.max(sizes, initial=0.0))
+        pencil = _pencil(plant, value)
+        sizes = np.linalg.svd(pencil, compute_uv=False)
         sigma = float(sizes[needed - 1]) if 0 < needed <= len(sizes) else 0.0
         near = math.nan if zeros is None else float(np.min(np.abs(zeros - value), initial=math.inf))
-        answer.append(ModeSolvability(complex(value), int(np.sum(sizes > limit)), needed, sigma, near))
+        answer.append(ModeSolvability(complex(value), _rank(pencil), needed, sigma, near))
     return tuple(answer)
+
+
+def _rank(matrix: Array) -> int:
+    """Return the numeric rank, which depends on no unit of a row or a column."""
+    rows, columns = _scales(matrix)
+    sizes = np.linalg.svd(rows[:, None] * matrix * columns, compute_uv=False)
+    return int(np.sum(sizes > max(matrix.shape) * np.finfo(float).eps * np.max(sizes, initial=0.0)))
+
+
+def _scales(matrix: Array) -> tuple[Array, Array]:
+    """Return factors of rows and columns, powers of two, that bring the largest element of each near one (Ruiz 2001)."""
+    size, rows, columns = np.abs(matrix), np.ones(matrix.shape[0]), np.ones(matrix.shape[1])
+    for _ in range(12):  # by the square root each time: the error of the exponent halves
+        now = rows[:, None] * size * columns
+        for factors, axis in ((rows, 1), (columns, 0)):
+            top = np.max(now, axis=axis, initial=0.0)
+            factors /= np.sqrt(np.where(top > 0, top, 1.0))
+    return np.exp2(np.round(np.log2(rows))), np.exp2(np.round(np.log2(columns)))
 
 
 def transmission_zeros(plant: LinearModel) -> Array | None:
@@ -291,14 +310,20 @@ def transmission_zeros(plant: LinearModel) -> Array | None:
     right = np.zeros((n + m, n + m))
     right[:n, :n] = np.eye(n)
     pencil = np.block([[plant.A, plant.B], [plant.C, plant.D]])
-    above, below = eigvals(pencil, right, homogeneous_eigvals=True)
+    rows, columns = _scales(np.abs(pencil) + right)  # which moves no eigenvalue of the pair
+    scaled = [rows[:, None] * item * columns for item in (pencil, right)]
+    above, below = eigvals(*scaled, homogeneous_eigvals=True)
     small = np.abs(below) <= 1e-8 * np.maximum(np.abs(above), np.abs(below))
     values = above[~small] / below[~small]
-    return np.asarray(values[np.abs(values) < 1e3 * max(1.0, float(np.linalg.norm(plant.A, 2)) if n else 1.0)])
+    largest = float(np.linalg.norm(matrix_balance(plant.A)[0], 2)) if n else 1.0
+    return np.asarray(values[np.abs(values) < 1e3 * max(1.0, largest)])
 
 
 def _pencil(plant: LinearModel, value: complex) -> Array:
     shifted = plant.A - value * np.eye(len(plant.A))
+    own = np.diag(shifted)
+    dust = np.abs(own) <= 4 * np.finfo(float).eps * abs(value)  # what scaling would take for an element
+    shifted[dust, dust] = 0.0
     pencil = np.block([[shifted, plant.B], [plant.C, plant.D]])
     return np.asarray(pencil.real if value.imag == 0 else pencil)
 
@@ -334,7 +359,9 @@ class RegulatorSolution:
         its diagonal.
     residual : float
         norm(M z - rhs) / norm(rhs), the largest over the parts of the exosystem that have nothing to do with each other; where a
-        part has full rank, and so a solution, / max(1, norm(rhs)). What is below 1e-13 of the whole right-hand side is of that.
+        part has full rank, and so a solution, / max(1, norm(rhs)). What is below 1e-13 of the whole right-hand side is of that;
+        and where units differ so much that the norm is that of one row, it is that of rows brought to one size. Beside this no
+        single equation may be left with more than 1e-9 of its own terms, however large the others are.
     modes : tuple of ModeSolvability
         For each distinct eigenvalue of the exosystem.
     warnings : tuple of str
@@ -368,11 +395,12 @@ class RegulatorSolution:
         What that is depends on no unit: it is judged by what an element moves in the equations of its part of the exosystem.
         """
         view, S, n = self.model, self.exosystem.matrix, len(self.state_map)
-        pencil = np.abs(np.block([[view.A, view.B], [view.C, view.D]]))
+        pencil, rows = np.abs(_pencil(view, 0.0)), _scales(_pencil(view, 0.0))[0]
         z, right = np.vstack([self.state_map, self.input_map]), np.abs(np.vstack([self.disturbance, self.reference]))
+        right = rows[:, None] * right
         for part in parts_of(S):
-            moved = np.linalg.norm(pencil, axis=0)
-            moved[:n] += float(np.max(np.abs(S[np.ix_(part, part)]), initial=0.0))
+            moved = np.linalg.norm(rows[:, None] * pencil, axis=0)
+            moved[:n] += rows[:n] * float(np.max(np.abs(S[np.ix_(part, part)]), initial=0.0))
             terms = moved[:, None] * np.abs(z[:, part])
             largest = max(float(np.max(item, initial=0.0)) for item in (terms, right[:, part]))
             z[:, part] = np.where(terms < DUST * largest, 0.0, z[:, part])
@@ -397,15 +425,10 @@ class RegulatorSolution:
         given = self.rounded() if values is None else values
         Pi = np.asarray(given["state_map"], dtype=float).reshape(self.state_map.shape)
         Gamma = np.asarray(given["input_map"], dtype=float).reshape(self.input_map.shape)
-        view, S = self.model, self.exosystem.matrix
-        upper = np.abs(Pi) @ np.abs(S) + np.abs(view.A) @ np.abs(Pi) + np.abs(view.B) @ np.abs(Gamma)
-        lower = np.abs(view.C) @ np.abs(Pi) + np.abs(view.D) @ np.abs(Gamma)
-        left = np.vstack(_residuals(view, S, self.reference, self.disturbance, Pi, Gamma))
-        whole, right = np.vstack([upper, lower]), np.vstack([self.disturbance, self.reference])
-        shares = [0.0]
+        view, S, shares = self.model, self.exosystem.matrix, [0.0]
         for part in parts_of(S):  # each by itself: a large disturbance hides nothing of a small reference
-            size = float(np.linalg.norm(np.maximum(whole[:, part], np.abs(right[:, part]))))
-            shares.append(float(np.linalg.norm(left[:, part])) / size if size else 0.0)
+            own = S[np.ix_(part, part)], self.reference[:, part], self.disturbance[:, part]
+            shares.append(_worst_share(view, *own, Pi[:, part], Gamma[:, part]))
         share = float(np.max(shares))  # NaN where one is
         return {"residual of the regulator equations, of their terms": (share, 2e-8)}
 
@@ -459,26 +482,20 @@ def francis(model: Any, exosystem: Exosystem, *, solver: str | None = None) -> R
             f"at every eigenvalue ({_worst_text(modes)}); take solver='kronecker'"
         )
     Pi, Gamma, rank, ratios = np.zeros((n, exosystem.order)), np.zeros((p, exosystem.order)), 0, []
-    residuals, right = [0.0], np.vstack([P, Q])
-    largest = float(np.linalg.norm(right))
+    residuals, rows = [0.0], n + len(view.C)
+    largest = float(np.linalg.norm(np.vstack([P, Q])))
     factors: dict[complex, Any] = {}
     for part in parts_of(S):
-        block = S[np.ix_(part, part)]
+        own = S[np.ix_(part, part)], Q[:, part], P[:, part]
         if chosen == "schur":
-            z, found, sizes = _by_columns(view, block, P[:, part], Q[:, part], factors)
+            z, found, sizes = _by_columns(view, *own, factors)
         else:
-            z, found, sizes = _by_kronecker(view, block, P[:, part], Q[:, part])
+            z, found, sizes = _by_kronecker(view, *own)
         Pi[:, part], Gamma[:, part] = z[:n], z[n:]
         rank += found
         ratios.append(sizes)
-        left = float(np.linalg.norm(np.vstack(_residuals(view, block, Q[:, part], P[:, part], z[:n], z[n:]))))
-        asked = float(np.linalg.norm(right[:, part]))
-        if found == len(right) * len(part):
-            asked = max(1.0, asked)
-        elif left < DUST * largest:  # a right-hand side that is rounding next to the others is none
-            asked = largest
-        residuals.append(left / asked if asked else left)
-    rows, residual = (n + len(view.C)) * exosystem.order, float(np.max(residuals))  # NaN where one is
+        residuals.append(_judged(view, *own, z, found == rows * len(part), largest))
+    rows, residual = rows * exosystem.order, float(np.max(residuals))  # NaN where one is
     if not residual < SOLVABLE:
         raise RegulatorError(_unsolvable(view, modes, rank, rows, residual))
     least = min((item[0] for item in ratios), default=0.0)
@@ -489,8 +506,43 @@ def francis(model: Any, exosystem: Exosystem, *, solver: str | None = None) -> R
     )  # fmt: skip
 
 
-def _by_kronecker(view: LinearModel, S: Array, P: Array, Q: Array) -> tuple[Array, int, tuple[float, float]]:
-    """Return ([Pi; Gamma], rank, (least, largest singular value)) of one part: least squares, of least norm."""
+def _judged(view: LinearModel, S: Array, Q: Array, P: Array, z: Array, full: bool, largest: float) -> float:
+    """Return the relative residual of one part, at least `SOLVABLE` where an equation is not solved."""
+    n, right = len(view.A), np.vstack([P, Q])
+    left = np.vstack(_residuals(view, S, Q, P, z[:n], z[n:]))
+    size, asked = float(np.linalg.norm(left)), float(np.linalg.norm(right))
+    if full:
+        asked = max(1.0, asked)
+    elif asked < DUST * largest:  # a right-hand side that is rounding next to the others is none
+        return size / largest
+    relative = size / asked if asked else size
+    if not relative < SOLVABLE:
+        rows = _scales(_pencil(view, 0.0))[0][:, None]
+        other = float(np.linalg.norm(rows * left)) / max(float(np.linalg.norm(rows * right)), 1e-300)
+        if not other < SOLVABLE:
+            return relative
+        relative = other  # it was rounding, in a row of large numbers
+    share = _worst_share(view, S, Q, P, z[:n], z[n:])
+    return relative if share < SOLVABLE else share
+
+
+def _worst_share(view: LinearModel, S: Array, Q: Array, P: Array, Pi: Array, Gamma: Array) -> float:
+    """Return what is left of an equation (a row, over the states of one part), of its own terms; the worst of all.
+
+    A row is an equation in one unit. Those whose terms are below 1e-13 of the largest, rows brought to one size, are rounding.
+    """
+    left = np.vstack(_residuals(view, S, Q, P, Pi, Gamma))
+    upper = np.abs(Pi) @ np.abs(S) + np.abs(view.A) @ np.abs(Pi) + np.abs(view.B) @ np.abs(Gamma)
+    lower = np.abs(view.C) @ np.abs(Pi) + np.abs(view.D) @ np.abs(Gamma)
+    terms = np.linalg.norm(np.vstack([upper + np.abs(P), lower + np.abs(Q)]), axis=1)
+    scaled = _scales(_pencil(view, 0.0))[0] * terms
+    judged = ~(scaled <= DUST * np.max(scaled, initial=0.0))
+    shares = np.linalg.norm(left, axis=1)[judged] / terms[judged]
+    return float(np.max(shares, initial=0.0))  # NaN where one is
+
+
+def _by_kronecker(view: LinearModel, S: Array, Q: Array, P: Array) -> tuple[Array, int, tuple[float, float]]:
+    """Return ([Pi; Gamma], rank, (least, largest singular value)) of one part: of least norm, or least squares."""
     (n, p), m, r = view.B.shape, len(view.C), len(S)
     if (n + m) * r > LARGEST_DENSE or (n + p) * r > LARGEST_DENSE:
         raise ModelError(
@@ -505,17 +557,35 @@ def _by_kronecker(view: LinearModel, S: Array, P: Array, Q: Array) -> tuple[Arra
         ]
     )
     right = np.concatenate([-P.ravel(order="F"), Q.ravel(order="F")])
-    left, sizes, across = np.linalg.svd(M, full_matrices=False)
-    top = float(np.max(sizes, initial=0.0))
-    kept = sizes > max(M.shape) * np.finfo(float).eps * top
-    z = across[kept].T @ ((left[:, kept].T @ right) / sizes[kept])
+    z, rank = _least_norm(M, right)
+    scales = _scales(M)[0]
+    left, asked = (float(np.linalg.norm(scales * item)) for item in (M @ z - right, right))
+    if rank < len(M) and not left < SOLVABLE * asked:
+        z = np.linalg.lstsq(M, right, rcond=max(M.shape) * np.finfo(float).eps)[0]  # in the units as they are
+    sizes = np.linalg.svd(M, compute_uv=False)
     answer = np.vstack([z[: n * r].reshape(r, n).T, z[n * r :].reshape(r, p).T])
     # with fewer columns than rows the least singular value of interest is still the last there is
-    return answer, int(np.sum(kept)), (float(np.min(sizes, initial=math.inf)), top)
+    return answer, rank, (float(np.min(sizes, initial=math.inf)), float(np.max(sizes, initial=0.0)))
+
+
+def _least_norm(M: Array, right: Array) -> tuple[Array, int]:
+    """Return the solution of least norm of M z = right, if there is one, and the rank of M, which depends on no unit."""
+    rows, columns = _scales(M)
+    left, sizes, across = np.linalg.svd(rows[:, None] * M * columns)
+    kept = sizes > max(M.shape) * np.finfo(float).eps * np.max(sizes, initial=0.0)
+    rank = int(np.sum(kept))
+    z = np.zeros(M.shape[1])
+    for _ in range(2):  # once more on what is left: small rows are then solved as well as large ones
+        parts = left[:, :rank].T @ (rows * (right - M @ z)) / sizes[:rank]
+        z = z + columns * (across[:rank].T @ parts)
+    if rank < M.shape[1]:  # the scales have moved what is least
+        free = np.linalg.qr(columns[:, None] * across[rank:].T)[0]
+        z = z - free @ (free.T @ z)
+    return z, rank
 
 
 def _by_columns(
-    view: LinearModel, S: Array, P: Array, Q: Array, factors: dict[complex, Any]
+    view: LinearModel, S: Array, Q: Array, P: Array, factors: dict[complex, Any]
 ) -> tuple[Array, int, tuple[float, float]]:
     """Return the same of a part by columns of its triangular form; `factors` keeps pencils that were factorised."""
     n, r = len(view.A), len(S)
@@ -531,16 +601,36 @@ def _by_columns(
     for j in range(r):
         value = complex(T[j, j])
         if value not in factors:
-            pencil = _pencil(view, value)
-            sizes = np.linalg.svd(pencil, compute_uv=False)
-            factors[value] = lu_factor(pencil), (float(sizes[-1]), float(sizes[0])) if len(sizes) else (math.inf, 0.0)
-        lu, size = factors[value]
+            factors[value] = _Factors.of(_pencil(view, value))
         column = right[:, j].astype(z.dtype)
         column[:n] += z[:n, :j] @ T[:j, j]
-        z[:, j] = lu_solve(lu, column) if len(column) else column
-        ends.append(size)
+        z[:, j] = factors[value].solve(column) if len(column) else column
+        ends.append(factors[value].sizes)
     answer = z @ V.conj().T
     return answer.real, len(right) * r, (min(item[0] for item in ends), max(item[1] for item in ends))
+
+
+@dataclass(frozen=True, eq=False)
+class _Factors:
+    """A pencil that was factorised, rows and columns brought to one size."""
+
+    matrix: Array
+    rows: Array
+    columns: Array
+    lu: Any
+    sizes: tuple[float, float]
+
+    @classmethod
+    def of(cls, pencil: Array) -> _Factors:
+        """Factorise a square matrix of full rank."""
+        (rows, columns), sizes = _scales(pencil), np.linalg.svd(pencil, compute_uv=False)
+        ends = (float(sizes[-1]), float(sizes[0])) if len(sizes) else (math.inf, 0.0)
+        return cls(pencil, rows, columns, lu_factor(rows[:, None] * pencil * columns), ends)
+
+    def solve(self, right: Array) -> Array:
+        """Solve, and once more for what is left: small rows are then solved as well as large ones (Skeel 1980)."""
+        first = self.columns * lu_solve(self.lu, self.rows * right)
+        return np.asarray(first + self.columns * lu_solve(self.lu, self.rows * (right - self.matrix @ first)))
 
 
 def _triangular_order(S: Array) -> list[int] | None:

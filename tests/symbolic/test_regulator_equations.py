@@ -2,6 +2,7 @@
 
 import ast
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -525,3 +526,65 @@ def test_what_is_rounding_depends_on_no_unit(unit):
     thrust = linear_model([[0, 1], [0, -0.3]], [[0], [1e14]], [[1, 0]]).sampled(T, "euler")
     maps = francis(thrust, polynomial("y_0", 2).sampled(T), solver="schur").rounded()["input_map"]
     np.testing.assert_allclose(maps * 1e14, [[0, 0.3, 1 + 0.3 * T / 2]], rtol=1e-8, atol=0)
+
+
+def in_units(model, generator, decades, seed=0):
+    """The same plant and references, each state, input and output in a unit of its own; and these units."""
+    rng = np.random.default_rng(seed)
+    x, u, y = (10.0 ** rng.uniform(-decades, decades, size) for size in (len(model.A), model.B.shape[1], len(model.C)))
+    other = replace(model, A=model.A * x / x[:, None], B=model.B * u / x[:, None], C=model.C * x / y[:, None])
+    return other, replace(generator, output=generator.output / y[:, None]), x, u
+
+
+@pytest.mark.parametrize("decades", [3, 6])
+@pytest.mark.parametrize("solver", ["schur", "kronecker"])
+def test_millimetres_beside_kilometres_are_no_reason_to_refuse(monkeypatch, decades, solver):
+    """Units up to 6 decades up or down, twelve from the smallest to the largest."""
+    model, generator = quadrotor().sampled(T, "euler"), chains(6).sampled(T, "euler")
+    other, turned, x, u = in_units(model, generator, decades)
+    wanted, found = francis(model, generator), francis(other, turned, solver=solver)
+    np.testing.assert_allclose(found.state_map * x[:, None], wanted.state_map, atol=1e-12)
+    np.testing.assert_allclose(found.input_map * u[:, None], wanted.input_map, atol=1e-12)
+    assert found.rank == 448 and found.warnings == () and [mode.rank for mode in found.modes] == [16]
+    assert all(value <= limit for value, limit in found.properties().values())
+    if decades > 3:  # the planted fault: as it was before rows and columns were scaled
+        monkeypatch.setattr(regulator_equations, "_scales", lambda matrix: tuple(map(np.ones, matrix.shape)))
+        with pytest.raises(RegulatorError, match=r"the rank is \d+ of 16"):
+            francis(other, turned)
+
+
+@pytest.mark.parametrize("decades", [3, 6, 9])
+def test_units_hide_no_transmission_zero(decades):
+    for model, generator, says in (
+        (linear_model(*ZERO), constant("y_0"), "at 0 the rank is 2 of 3; rank of the equations 2 of 3"),
+        (linear_model(*ZEROS), harmonic("y_0", 1.0), r"at 0\+-1j the rank is 3 of 4; rank of the equations 6 of 8"),
+    ):
+        for seed in range(5):
+            other, turned, _, _ = in_units(model, generator, decades, seed)
+            with pytest.raises(RegulatorError, match=says):
+                francis(other, turned)
+            np.testing.assert_allclose(
+                np.sort_complex(transmission_zeros(other)), np.sort_complex(transmission_zeros(model)), atol=1e-7
+            )
+
+
+@pytest.mark.parametrize("size", [1.0, 1e9, 1e12])
+def test_within_a_coupled_part_a_large_disturbance_hides_no_reference(monkeypatch, size):
+    """The constant of F-1 that cannot be followed; the disturbance, which can be undone, drives it a little."""
+    plant = linear_model(*ZERO, E=[[0], [size]])
+    coupled = exosystem([[0, 1e-3], [0, 0]], np.eye(2), ["y_0", "d_0"])
+    with pytest.raises(RegulatorError, match="at 0 the rank is 2 of 3; rank of the equations 5 of 6"):
+        francis(plant, coupled)
+    if size > 1:  # the planted fault: judged by the norm of the whole alone
+        monkeypatch.setattr(regulator_equations, "_worst_share", lambda *given: 0.0)
+        assert francis(plant, coupled).residual < 1e-9
+
+
+def test_the_solution_of_least_norm_is_that_of_the_pseudo_inverse():
+    rng = np.random.default_rng(7)
+    for rows, columns, rank in ((5, 9, 5), (6, 6, 4), (9, 5, 3)):
+        M = rng.normal(size=(rows, rank)) @ rng.normal(size=(rank, columns)) * 10.0 ** rng.uniform(-2, 2, columns)
+        right = M @ rng.normal(size=columns)
+        z, found = regulator_equations._least_norm(M, right)
+        assert found == rank
+        np.testing.assert_allclose(z, np.linalg.pinv(M, rcond=1e-12) @ right, rtol=1e-7, atol=1e-9)
