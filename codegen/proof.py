@@ -36,9 +36,8 @@ OPTIONS = [
 ]  # fmt: skip
 """NaN and infinity may arise on the way: they are judged, and must not be stored."""
 
-EFFORTS = {"judgement": (2000,), "straight": (100, 1000), "sequence": (3000,)}
-"""States that the analyser keeps apart, tried in this order, by what kind of function it is."""
-
+EFFORTS = {"judgement": (2000, 20000), "straight": (100, 1000), "sequence": (3000,)}
+"""States that the analyser keeps apart, by what kind of function it is: tried in this order while something stays open."""
 
 HELD = (Status.NOT_POSITIVE, Status.OVERFLOW, Status.OK, Status.CLAMPED)
 """What the function that holds a matrix within its limits may return."""
@@ -505,10 +504,10 @@ def analyse(
     return kept, ways
 
 
-def prove_task(block: Block, text: CText, task: Task, *, seconds: float = 900.0) -> CheckResult:
-    """Prove one function, with more effort where less does not do."""
+def prove_task(block: Block, text: CText, task: Task, *, seconds: float = 900.0) -> tuple[CheckResult, int]:
+    """Prove one function, with more effort where less does not do; return also the effort that was spent last."""
     needed = {"accepted", "refused"} if "show_each" in task.harness else set()
-    started, note, count = time.perf_counter(), "", 0
+    started, note, count, effort = time.perf_counter(), "", 0, 0
     for effort in EFFORTS[task.effort]:
         try:
             properties, ways = analyse(block, text, task, effort, seconds=seconds)
@@ -522,9 +521,9 @@ def prove_task(block: Block, text: CText, task: Task, *, seconds: float = 900.0)
         if not open_ones:
             if len(own) >= task.assertions and needed <= ways:
                 took = time.perf_counter() - started
-                return CheckResult(f"proof of {task.name}", True, calls=count, note=f"{took:.1f} s")
+                return CheckResult(f"proof of {task.name}", True, calls=count, note=f"{took:.1f} s"), effort
             note = f"{len(own)} of {task.assertions} assertions were reached; of the ways to return only {sorted(ways)}"
-    return CheckResult(f"proof of {task.name}", False, calls=count, note=note)
+    return CheckResult(f"proof of {task.name}", False, calls=count, note=note), effort
 
 
 def prove(block: Block, text: CText, names: Sequence[str] = (), *, seconds: float = 900.0) -> Findings:
@@ -544,7 +543,8 @@ def prove(block: Block, text: CText, names: Sequence[str] = (), *, seconds: floa
     Returns
     -------
     Findings
-        A check for each function; its calls are the properties that were looked at.
+        A check for each function; its calls are the properties that were looked at. Of those that are proved, the facts
+        have the properties (`proof`) and the states that were kept apart (`efforts`).
 
     Raises
     ------
@@ -555,7 +555,14 @@ def prove(block: Block, text: CText, names: Sequence[str] = (), *, seconds: floa
     """
     tasks = [task for task in proof_tasks(block, text) if not names or task.name in names]
     with ThreadPoolExecutor(max(1, os.cpu_count() or 1)) as pool:
-        checks = list(pool.map(lambda task: prove_task(block, text, task, seconds=seconds), tasks))
+        done = list(pool.map(lambda task: prove_task(block, text, task, seconds=seconds), tasks))
+    proved = [
+        (task.name, check.calls, effort) for task, (check, effort) in zip(tasks, done, strict=True) if check.passed
+    ]
     return Findings(
-        checks, {"proof": {task.name: check.calls for task, check in zip(tasks, checks, strict=True) if check.passed}}
+        [check for check, _ in done],
+        {
+            "proof": {name: properties for name, properties, _ in proved},
+            "efforts": {name: effort for name, _, effort in proved},
+        },
     )
