@@ -17,6 +17,7 @@ from ..symbolic.block import Block, Scenario
 from ..symbolic.program import Entry
 from ..symbolic.signals import Kind, Signal, Status
 from .findings import CheckResult, Mismatch
+from .kinks import on_every_piece
 from .layout import fill, flatten
 from .views import Answer, InterpretView, NativeView, Record, ReferenceView, View
 
@@ -369,6 +370,16 @@ def _adversarial(
         for whole in _indefinite(block, params):
             source = sources[int(rng.integers(len(sources)))]
             yield probe(name, source.memory, source.inputs, whole)
+        source = sources[0]
+        for element, number in on_every_piece(
+            block, entry, flatten(source.memory), flatten(source.inputs), flatten(params)
+        ):
+            moved = source.memory if element.place.space == "memory" else source.inputs
+            elements = flatten(moved)[element.place.name].copy()
+            elements[element.index] = number
+            moved = fill(moved.copy(), {element.place.name: elements})
+            given = (moved, source.inputs) if element.place.space == "memory" else (source.memory, moved)
+            yield probe(name, *given, params)
         for factor in (1.0e-12, 1.0e6, 1.0e12):
             source = sources[int(rng.integers(len(sources)))]
             yield probe(name, _scaled_arrays(source.memory, block, factor), source.inputs, params)

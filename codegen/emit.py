@@ -23,6 +23,7 @@ from .mathematics import CHOICES, OWN, mathematics_note, mathematics_text
 from .provenance import Genealogy, Parent, Provenance, TracedLines, marked, unmarked
 from .rows import bounded_helper, certain_factors, pair_helpers
 from .style import WIDTH, Precision, comment_lines, comment_safe, wrap_line
+from .tables import Tables
 from .writer import CoreWriter, Style, core_name, has_outputs, is_sequenced, needs_params, style_for, wrap_signature
 
 
@@ -112,6 +113,7 @@ class _Emitter:
         self.operations: dict[str, dict[str, int]] = {}
         self.used: set[str] = set()
         self.own: set[str] = set()
+        self.tables = Tables()
 
     def text(self) -> CText:
         """Write both files."""
@@ -147,6 +149,7 @@ class _Emitter:
             .render(
                 **context,
                 mathematics=mathematics_text(self.name, self.precision, self.own),
+                tables=self.tables.text(self.name, self.precision),
                 cores=marked(cores, parents),
                 publics=marked(publics, parents),
             )
@@ -314,7 +317,7 @@ class _Emitter:
         if whole is not None:
             lines += pair_helpers(prefix, self.precision, whole.rows[0].size)
         for entry in _calls_first(self._written(block)):
-            written = CoreWriter(block, entry, prefix, self.style, self.name).write()
+            written = CoreWriter(block, entry, prefix, self.style, self.name, self.tables).write()
             self.used |= written.functions
             self.own |= written.own
             key = entry.name if prefix == self.name else f"{prefix.removeprefix(self.name + '_')}.{entry.name}"

@@ -19,6 +19,7 @@ from .exported import tool
 from .graph import Node
 from .mathematics import ERROR_BOUNDS, LIMITS
 from .style import Precision
+from .tables import table_of
 
 if TYPE_CHECKING:
     from .rounding import Piece
@@ -347,6 +348,11 @@ class Gappa:
 
     def _function(self, node: Node, number: int, operands: Sequence[tuple[str, str]]) -> None:
         name = node.operation
+        if name == "look_up":
+            self._table(node, number, operands[0])
+            return
+        if name == "look_up_slope":
+            raise NotBounded("the slope of a table jumps at its breakpoints")
         if name not in ERROR_BOUNDS[self.precision.name]:
             raise NotBounded(f"{name} is not a number's operation")
         if self.mathematics != "own":
@@ -375,6 +381,18 @@ class Gappa:
         if min(abs(values[0]), abs(values[1])) > float(self.info.tiny) and values[0] * values[1] > 0:
             part = ERROR_BOUNDS[self.precision.name][name] * float(self.info.eps)
             self.hypotheses.append(f"{rounded} -/ {true} in [{(-part).hex()},{part.hex()}]")
+
+    def _table(self, node: Node, number: int, x: tuple[str, str]) -> None:
+        """Enter a look-up: values within those of the table, slopes too, and an error that the table states."""
+        table = table_of(node.arguments)
+        rounded, true = f"v{number}", f"t{number}"
+        values = (min(table.values), max(table.values))
+        self.lines.append(f"{rounded} = rnd(x{number});  # look_up")
+        self._related(number, true, [(f"d{number}", *x, (min(table.slopes), max(0.0, *table.slopes)))])
+        self._within(true, values)
+        self._within(f"e{number}", values)
+        error = table.rounding(float(self.info.epsneg))
+        self._within(f"{rounded} - {true}", (-error, error))
 
     def _own_error(self, name: str, values: Interval) -> float:
         """Return the largest error of an own function, from its bound in units in the last place of the true value."""

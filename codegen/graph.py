@@ -238,6 +238,12 @@ class Graph:
                     zero = self.const(0.0)
                     below = self.make("select", self.make("lt", items[0], zero), self.const(-1.0), items[0])
                     node = self.make("select", self.make("lt", zero, items[0]), self.const(1.0), below)
+                case "saturation":
+                    x, low, high = [self.as_number(item) for item in items]
+                    above = self.make("select", self.make("lt", x, low), low, x)
+                    node = self.make("select", self.make("lt", high, above), high, above)
+                case "minimum" | "maximum":
+                    node = self._strict_extreme(step.operation, *[self.as_number(item) for item in items])
                 case "fmin" | "fmax":
                     node = self._extreme(step.operation, *[self.as_number(item) for item in items])
                 case "and" | "or" | "not":
@@ -256,6 +262,17 @@ class Graph:
         not_worse = (a, b) if operation == "fmin" else (b, a)
         other = b if b.operation == "const" else self.make("select", self.make("eq", b, b), b, a)
         return self.make("select", self.make("le", *not_worse), a, other)
+
+    def _strict_extreme(self, operation: str, a: Node, b: Node) -> Node:
+        """Return the smaller or larger as comparisons that pass NaN on."""
+        if a.operation == "const":
+            a, b = b, a
+        b_below_a, a_below_b = (self.make("lt", *pair) for pair in ((b, a), (a, b)))
+        if b.operation == "const":
+            return self.make("select", b_below_a if operation == "minimum" else a_below_b, b, a)
+        first, second = (a_below_b, (b, a)) if operation == "minimum" else (b_below_a, (a, b))
+        other = self.make("select", self.make("le", *second), b, self.make("add", a, b))
+        return self.make("select", first, a, other)
 
     def as_number(self, node: Node) -> Node:
         """Return 1 or 0 for a truth value."""

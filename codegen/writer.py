@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..symbolic.block import Block
-from ..symbolic.expressions import tape
+from ..symbolic.expressions import TABLES, tape
 from ..symbolic.kernels import AllStatesUpdate, Scale
 from ..symbolic.program import (
     AllOf,
@@ -47,6 +47,7 @@ from .mathematics import EXACT, mathematics_name
 from .provenance import Genealogy, Parent, TracedLines
 from .rows import pair_operations
 from .style import WIDTH, Precision, comment_lines, wrap_line
+from .tables import Tables, table_of
 
 _INFIX = {
     "add": "+", "sub": "-", "mul": "*", "div": "/", "lt": "<", "le": "<=", "eq": "==", "ne": "!=", "ge": ">=",
@@ -110,8 +111,9 @@ def has_outputs(entry: Entry) -> bool:
 class CoreWriter:
     """Writes the core of one entry."""
 
-    def __init__(self, block: Block, entry: Entry, prefix: str, style: Style, root: str):
+    def __init__(self, block: Block, entry: Entry, prefix: str, style: Style, root: str, tables: Tables | None = None):
         self.block, self.entry, self.prefix, self.style, self.root = block, entry, prefix, style, root
+        self.tables = Tables() if tables is None else tables
         self.precision = style.precision
         self.upper = root.upper()
         self.graph = Graph()
@@ -185,7 +187,9 @@ class CoreWriter:
         cppcheck (2.10) goes through all that a condition guards once for each of its comparisons: over a long body that
         takes it minutes.
         """
-        inner, outer = (CoreWriter(self.block, self.entry, self.prefix, self.style, self.root) for _ in range(2))
+        inner, outer = (
+            CoreWriter(self.block, self.entry, self.prefix, self.style, self.root, self.tables) for _ in range(2)
+        )
         name = f"{self.prefix}_{self.entry.name}_judged"
         inner._plain([])
         frame = self.genealogy.parent("entry", self.entry.doc or f"the entry {self.entry.name}")
@@ -804,6 +808,10 @@ class CoreWriter:
             return self._slot(Element(place, index))
         if node.operation == "const":
             return self.precision.literal(node.value)
+        if node.operation in TABLES:
+            self.operations[node.operation] += 1
+            x = self._expression(node.arguments[0], uses)
+            return self.tables.call(self.root, node.operation, table_of(node.arguments), x)
         parts = [self._expression(item, uses) for item in node.arguments]
         if node.operation == "select" and _PLAIN.fullmatch(parts[1]):
             parts[1] = self._bind_text(node.arguments[1], parts[1])

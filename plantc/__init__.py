@@ -24,6 +24,7 @@ if (_checkout / "pyproject.toml").is_file() and not (_Path(__file__).parent / "s
 from .codegen import InterpretView, NativeView, ReferenceView, Trace, cross_check, emit, export
 from .symbolic import Attitude, Block, ModelError, Plant, Status
 from .symbolic.analysis import OperatingPoint, linearise, trim
+from .symbolic.command_filter import command_filter
 from .symbolic.composition import connect, delay, wires
 from .symbolic.controllers import (
     low_pass,
@@ -37,15 +38,21 @@ from .symbolic.controllers import (
 )
 from .symbolic.design import Gain, ackermann, lqr, place, place_chains
 from .symbolic.estimators import extended_kalman_filter, kalman_filter, steady_state_kalman_filter
+from .symbolic.fuzzy import FuzzyInput, FuzzyOutput, FuzzySet, FuzzySystem
 from .symbolic.james_stein import james_stein_estimator
 from .symbolic.jump_matrix import JumpModel, jump_matrix_estimator, jump_model, jump_simulation
 from .symbolic.output_regulator import output_regulator
 from .symbolic.power_series import regulator_series
 from .symbolic.regulator_equations import francis
+from .symbolic.sliding_mode import reaching_time, sliding_mode, switching_gain
 
 __all__ = [
     "Attitude",
     "Block",
+    "FuzzyInput",
+    "FuzzyOutput",
+    "FuzzySet",
+    "FuzzySystem",
     "Gain",
     "InterpretView",
     "JumpModel",
@@ -57,6 +64,7 @@ __all__ = [
     "Status",
     "Trace",
     "ackermann",
+    "command_filter",
     "connect",
     "cross_check",
     "delay",
@@ -78,11 +86,14 @@ __all__ = [
     "place",
     "place_chains",
     "rate_limiter",
+    "reaching_time",
     "regulator_series",
     "saturation",
+    "sliding_mode",
     "state_feedback",
     "state_space",
     "steady_state_kalman_filter",
+    "switching_gain",
     "transfer_function",
     "trim",
     "wires",

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -74,8 +75,9 @@ class JumpSystem:
     Q: Array
     R: float
 
+    @cached_property
     def parts(self) -> tuple[Array, Array, Array]:
-        """Return Phi, Gam and Psi."""
+        """Phi, Gam and Psi."""
         return discrete_parts(self.A, self.B, self.L, self.T)
 
 
@@ -91,7 +93,7 @@ def simulate(system: JumpSystem, x0: Array, u: Array, w: Array, inside: Array) -
     inside : array (N, q)
         The noise inside the nonlinearities at k + 1.
     """
-    Phi, Gam, Psi = system.parts()
+    Phi, Gam, Psi = system.parts
     states = [np.asarray(x0, dtype=float)]
     for k in range(len(w)):
         states.append(system.jump(Phi @ states[-1] + Gam @ u[k] + Psi @ w[k], inside[k]))
@@ -136,7 +138,7 @@ class JumpEstimator:
             True x+ at k and at k + 1; only the online gain looks at them.
         """
         system = self.system
-        Phi, Gam, Psi = system.parts()
+        Phi, Gam, Psi = system.parts
         projected = Phi @ self.x + Gam @ u
         jumped = system.jump(projected, np.zeros(len(system.Q)))
         if self.choice == "online":

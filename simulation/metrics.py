@@ -182,8 +182,9 @@ def metrics_of(history: History) -> dict[str, float]:
     dict
         ``estimate_to_set_point``: mean over the steps of the sum over the states of (x* - x+)^2. By itself it ranks nothing:
         an estimator that ignores the readings and returns x* scores 0. ``error``: the same of x - x+, the estimation
-        error. ``regulation``: of x - x*. ``nees``: mean of e' P^-1 e, for a consistent filter the number of states.
-        ``nis_<sensor>``: mean NIS, for a consistent filter the size of the reading.
+        error; ``error_<state>``: the part of one state, where there are several. ``regulation``: of x - x*. ``nees``: mean of
+        e' P^-1 e, for a consistent filter the number of states. ``nis_<sensor>``: mean NIS, for a consistent filter the size
+        of the reading.
     """
     states, point = history.states, history.point
     answer: dict[str, float] = {}
@@ -192,6 +193,12 @@ def metrics_of(history: History) -> dict[str, float]:
             error = deviation(states, history.truth, history.estimate)
             answer["estimate_to_set_point"] = _mean_square(deviation(states, history.estimate, point))
             answer["error"] = _mean_square(error)
+            if len(states) > 1:
+                start = 0
+                for state in states:
+                    stop = start + (3 if state.kind == "attitude" else state.size)
+                    answer[f"error_{state.name}"] = _mean_square(error[:, start:stop])
+                    start = stop
         answer["regulation"] = _mean_square(deviation(states, history.truth, point))
         if history.estimate is not None and history.spread is not None:
             squares = normalised_squares_of_factors if history.factored else normalised_squares

@@ -371,7 +371,7 @@ def _header(loop: ClosedLoop, work: Work, runs: int, start: Start) -> dict[str, 
             "noise": [item.convention for item in work.channels],
             "start": "uniform about the set point, from the stream named 'start', in the order of the states",
             "loop": "x(k) = f(x(k-1), u(k-1)) + noise, z(k) = h(x(k)) + noise, u(k) = controller(z(k)), k = 1 .. steps",
-            "metrics": "means over k = 1 .. steps of sums over the states; see plantc.simulation.metrics_of",
+            "metrics": "means over k = 1 .. steps of sums over the states, and errors by state; see plantc.simulation.metrics_of",
         },
     }
 
@@ -441,6 +441,8 @@ def first_command(loop: ClosedLoop, x: Array, params: Mapping[str, Any] | None =
     plant = loop.point.plant
     states = [state.signal.name for state in plant.states]
     commands = [symbol.signal.name for symbol in plant.inputs]
+    if not commands:
+        return np.zeros(0)
     parts = {f"controller.{name}.": part for name, part in loop.controller.parts.items()}
     for prefix, part in {**parts, "controller.": loop.controller}.items():
         entry = part.entries["step"]

@@ -100,6 +100,25 @@ class Result:
         chosen = [self.judgements[run] for run in sorted(self.judgements)]
         return np.array([item.metrics[metric] for item in chosen if item.outcome in SUBSETS[of]])
 
+    def every(self, metric: str, *, above: float = math.inf) -> NDArray[np.float64]:
+        """Return a metric of every run that is done, in the order of the runs; infinite where the run diverged.
+
+        So a quantile over all runs tells how many were lost, which a mean over survivors does not.
+
+        Parameters
+        ----------
+        metric : str
+            See `plantc.simulation.metrics_of`.
+        above : float
+            A run whose metric is greater counts as diverged, as does one that was frozen.
+        """
+        if metric not in self.metrics():
+            raise ResultError(f"the metric {metric!r} is not known; take one of {', '.join(self.metrics())}")
+        chosen = [self.judgements[run] for run in sorted(self.judgements)]
+        values = np.array([item.metrics.get(metric, math.inf) for item in chosen], dtype=float)
+        # a frozen run has NaN, which no comparison lets through
+        return np.where(values <= above, values, math.inf)
+
     def mean(self, metric: str, of: str = "kept") -> Mean:
         """Return the mean of a metric over a subset, with its standard error; sums are in the order of the runs.
 

@@ -1,6 +1,24 @@
 """What a plant and an estimator are: expressions in, Blocks out."""
 
-from casadi import acos, asin, atan, atan2, cos, exp, fabs, fmax, fmin, if_else, log, sin, sqrt, tan, tanh, vertcat
+from casadi import (
+    acos,
+    asin,
+    atan,
+    atan2,
+    cos,
+    exp,
+    fabs,
+    fmax,
+    fmin,
+    if_else,
+    log,
+    sign,
+    sin,
+    sqrt,
+    tan,
+    tanh,
+    vertcat,
+)
 
 from .block import Block, Oracle, Scenario, Table
 from .controllers import (
@@ -15,6 +33,7 @@ from .controllers import (
 )
 from .design import Gain, ackermann, lqr, place, place_chains
 from .errors import ModelError
+from .piecewise import dead_zone, look_up, maximum, minimum, relay, saturated
 from .plant import Attitude, Plant, Symbol
 from .signals import Status
 
@@ -35,20 +54,27 @@ __all__ = [
     "atan",
     "atan2",
     "cos",
+    "dead_zone",
     "exp",
     "fabs",
     "fmax",
     "fmin",
     "if_else",
     "log",
+    "look_up",
     "low_pass",
     "lqr",
+    "maximum",
+    "minimum",
     "notch",
     "pid",
     "place",
     "place_chains",
     "rate_limiter",
+    "relay",
+    "saturated",
     "saturation",
+    "sign",
     "sin",
     "sqrt",
     "state_feedback",

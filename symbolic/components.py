@@ -59,6 +59,18 @@ def matrix_of(owner: str, what: str, given: Any) -> Array:
     return matrix
 
 
+def vector_of(owner: str, what: str, given: Any, size: int) -> Array:
+    """Return what a user gave as a vector of a size, of finite numbers."""
+    try:
+        vector = np.atleast_1d(np.asarray(given, dtype=float))
+    except (TypeError, ValueError):
+        vector = np.zeros((0, 0))
+    if vector.shape != (size,) or not np.all(np.isfinite(vector)):
+        found = f"has shape {vector.shape}" if vector.ndim == 1 or vector.size else f"is {given!r}"
+        raise ModelError(f"{owner}: {what} {found}; give {size} finite numbers")
+    return vector
+
+
 def ends_of(owner: str, given: Any) -> Ends:
     """Return a range as two floats; the default is that of every signal."""
     low, high = make_range(owner, "the signal", given, (-WIDE, WIDE), 1)

@@ -248,12 +248,7 @@ def _design(block: Block, gain: Gain) -> Design:
     """Return the record of a designed gain."""
 
     def rebuild(values: dict[str, Any]) -> Block:
-        given = np.asarray(values["gain"], dtype=float)
-        if given.shape != gain.gain.shape or not np.all(np.isfinite(given)):
-            raise ModelError(
-                f"{block.name}: the gain of design.json has shape {given.shape}; give {gain.gain.shape[0]} x "
-                f"{gain.gain.shape[1]} finite numbers, or export with --redesign"
-            )
+        given = gain.checked(block.name, values["gain"])
         made = copy.copy(block)
         default = tuple(float(item) for item in given.ravel())
         made.param_signals = [

@@ -24,6 +24,7 @@ from scipy.linalg import (
 from scipy.optimize import linear_sum_assignment
 
 from .analysis import HAUTUS_TOLERANCE, Linearisation, eigenvalues_of, hautus
+from .components import matrix_of
 from .errors import ModelError
 
 Array = NDArray[Any]
@@ -85,6 +86,16 @@ class Gain:
         if self.cost is not None:
             parts += [digits_of(item) for item in self.cost]
         return hashlib.sha256(repr(parts).encode()).hexdigest()[:16]
+
+    def checked(self, owner: str, given: Any) -> Array:
+        """Return another K for the same question, such as that of a `design.json`; refuse one of another size."""
+        K = matrix_of(owner, "the gain of design.json", given)
+        if K.size != self.gain.size:
+            raise ModelError(
+                f"{owner}: the gain of design.json has shape {K.shape}; give {self.gain.shape[0]} x {self.gain.shape[1]} "
+                "finite numbers, or export with --redesign"
+            )
+        return K.reshape(self.gain.shape)
 
     def properties(self, gain: Any = None) -> dict[str, tuple[float, float]]:
         """Return what a gain has to fulfil: name -> (measured, largest accepted).

@@ -14,7 +14,7 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
 from .analysis import eigenvalues_of
-from .components import matrix_of, seconds
+from .components import matrix_of, seconds, vector_of
 from .errors import ModelError
 
 Array = NDArray[Any]
@@ -211,12 +211,21 @@ class Exosystem:
             w_0.
         steps : int
             How many.
+
+        Raises
+        ------
+        ModelError
+            If it is continuous, w_0 has another size or is not finite, or `steps` is no whole number.
         """
         if self.dt is None:
             raise ModelError(
                 f"exosystem of {_listed(self.signals)}: it is continuous; run sampled(dt), which has a time step"
             )
-        w, rows = np.asarray(initial, dtype=float), []
+        if not isinstance(steps, int | np.integer) or steps < 0:
+            raise ModelError(
+                f"exosystem of {_listed(self.signals)}: steps is {steps!r}; give a whole number, at least 0"
+            )
+        w, rows = vector_of(f"exosystem of {_listed(self.signals)}", "w_0", initial, self.order), []
         for _ in range(steps + 1):
             rows.append(self.output @ w)
             w = self.matrix @ w

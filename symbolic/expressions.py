@@ -6,6 +6,7 @@ the order of a depth-first walk from the outputs, so that CasADi's own numbering
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -58,7 +59,13 @@ _OPERATIONS = {
 _CODES = {name: code for code, name in reversed(_OPERATIONS.items())}  # of two codes for pow the first
 _OPERATION_NAMES = {getattr(ca, word): word[3:].lower() for word in dir(ca) if word.startswith("OP_")}
 
-KINKS = frozenset({"fabs", "sign", "floor", "ceil", "fmin", "fmax", "lt", "le", "eq", "ne", "if_else_zero"})
+PIECEWISE = frozenset({"saturation", "minimum", "maximum", "look_up", "look_up_slope"})
+"""Functions of `piecewise` that are called in an expression and stay one step of a tape."""
+
+TABLES = frozenset({"look_up", "look_up_slope"})
+"""Those of a table: their arguments are x, the breakpoints, and as many values."""
+
+KINKS = PIECEWISE | {"fabs", "sign", "floor", "ceil", "fmin", "fmax", "lt", "le", "eq", "ne", "if_else_zero"}
 """Operations whose derivative jumps: there, complex step and differences may differ from each other."""
 
 
@@ -106,8 +113,9 @@ def expand(function: ca.Function, owner: str) -> ca.Function:
     except RuntimeError as error:
         reason = str(error).strip().splitlines()[-1]
         raise ModelError(_not_expanded(owner, function, reason)) from None
-    if any(expanded.instruction_id(k) == ca.OP_CALL for k in range(expanded.n_instructions())):
-        raise ModelError(_not_expanded(owner, function, "it calls a function whose inside is not seen"))
+    for called in _called(expanded):
+        if called.name() not in PIECEWISE and _inside(called) is None:
+            raise ModelError(_not_expanded(owner, function, "it calls a function whose inside is not seen"))
     return expanded
 
 
@@ -138,38 +146,97 @@ def tape(function: ca.Function) -> Tape:
     ModelError
         If an operation has no counterpart in the generated C; it is named.
     """
-    raw: list[Step] = []
-    known: dict[Step, int] = {}
-    register: dict[int, int] = {}
-    outputs = [[-1] * function.nnz_out(index) for index in range(function.n_out())]
+    reader = _Reader()
+    outputs = reader.read(function, None)
+    return _ordered(reader.raw, outputs)
 
-    def record(step: Step) -> int:
-        if step not in known:
-            known[step] = len(raw)
-            raw.append(step)
-        return known[step]
 
+def _called(function: ca.Function) -> list[ca.Function]:
+    """Return the functions that an SX function calls, those that they call too."""
+    found: list[ca.Function] = []
+    if not any(function.instruction_id(k) == ca.OP_CALL for k in range(function.n_instructions())):
+        return found
+    values = function.instructions_sx()
     for k in range(function.n_instructions()):
-        code = function.instruction_id(k)
-        inputs = function.instruction_input(k)
-        target = function.instruction_output(k)
-        if code == ca.OP_OUTPUT:
-            outputs[target[0]][target[1]] = register[inputs[0]]
-        elif code == ca.OP_INPUT:
-            register[target[0]] = record(Step("input", place=(inputs[0], inputs[1])))
-        elif code == ca.OP_CONST:
-            register[target[0]] = record(Step("const", value=float(function.instruction_constant(k))))
-        elif code == ca.OP_ASSIGN:
-            register[target[0]] = register[inputs[0]]
-        elif code in _OPERATIONS:
-            arguments = tuple(register[item] for item in inputs)
-            register[target[0]] = record(Step(_OPERATIONS[code], arguments))
-        else:
-            raise ModelError(
-                f"the operation {_OPERATION_NAMES.get(code, code)!r} in {function.name()!r} has no counterpart in the "
-                "generated C; rewrite it with " + ", ".join(sorted(set(_OPERATIONS.values())))
-            )
-    return _ordered(raw, outputs)
+        if function.instruction_id(k) == ca.OP_CALL:
+            called = values[k].which_function()
+            found.append(called)
+            inside = None if called.name() in PIECEWISE else _inside(called)
+            found += [] if inside is None else _called(inside)
+    return found
+
+
+def _inside(called: ca.Function) -> ca.Function | None:
+    """Return a called function as scalar operations, or None if they are not seen."""
+    if called.is_a("SXFunction"):
+        return called
+    try:  # any other kind would be expanded to a call of itself
+        return called.expand() if called.is_a("MXFunction") else None
+    except RuntimeError:
+        return None
+
+
+class _Reader:
+    """Records the operations of functions, those of what they call in the place of the call."""
+
+    def __init__(self) -> None:
+        self.raw: list[Step] = []
+        self.known: dict[Step, int] = {}
+
+    def record(self, step: Step) -> int:
+        """Return the position of a step, the same for the same one."""
+        if step not in self.known:
+            self.known[step] = len(self.raw)
+            self.raw.append(step)
+        return self.known[step]
+
+    def read(self, function: ca.Function, given: list[list[int]] | None) -> list[list[int]]:
+        """Return the steps of the outputs; `given` are those of the arguments, or None for inputs."""
+        register: dict[int, int] = {}
+        outputs = [[-1] * function.nnz_out(index) for index in range(function.n_out())]
+        values: Any = None
+        for k in range(function.n_instructions()):
+            code = function.instruction_id(k)
+            inputs = function.instruction_input(k)
+            target = function.instruction_output(k)
+            if code == ca.OP_OUTPUT:
+                outputs[target[0]][target[1]] = register[inputs[0]]
+            elif code == ca.OP_INPUT and given is not None:
+                register[target[0]] = given[inputs[0]][inputs[1]]
+            elif code == ca.OP_INPUT:
+                register[target[0]] = self.record(Step("input", place=(inputs[0], inputs[1])))
+            elif code == ca.OP_CONST:
+                number = float(function.instruction_constant(k))
+                register[target[0]] = self.record(Step("const", value=number))
+            elif code == ca.OP_ASSIGN:
+                register[target[0]] = register[inputs[0]]
+            elif code == ca.OP_CALL:
+                values = function.instructions_sx() if values is None else values
+                answers = self.call(values[k].which_function(), [register[item] for item in inputs], function)
+                register |= {item: answer for item, answer in zip(target, answers, strict=True) if item >= 0}
+            elif code in _OPERATIONS:
+                arguments = tuple(register[item] for item in inputs)
+                register[target[0]] = self.record(Step(_OPERATIONS[code], arguments))
+            else:
+                raise ModelError(
+                    f"the operation {_OPERATION_NAMES.get(code, code)!r} in {function.name()!r} has no counterpart in "
+                    "the generated C; rewrite it with " + ", ".join(sorted(set(_OPERATIONS.values())))
+                )
+        return outputs
+
+    def call(self, called: ca.Function, arguments: list[int], caller: ca.Function) -> list[int]:
+        """Return the steps that a call gives, one for each structural nonzero of its outputs."""
+        if called.name() in PIECEWISE:
+            return [self.record(Step(called.name(), tuple(arguments)))]
+        inside = _inside(called)
+        if inside is None:
+            raise ModelError(_not_expanded(caller.name(), called, "its inside is not seen"))
+        given, start = [], 0
+        for index in range(called.n_in()):
+            stop = start + called.nnz_in(index)
+            given.append(arguments[start:stop])
+            start = stop
+        return [item for output in self.read(inside, given) for item in output]
 
 
 def _ordered(raw: list[Step], outputs: list[list[int]]) -> Tape:
@@ -240,6 +307,46 @@ def _extreme(a: Any, b: Any, is_first: Any) -> Any:
     return value
 
 
+def _saturation(x: Any, low: Any, high: Any) -> Any:
+    """Hold x between two limits; on one of them the derivative is the mean of both sides."""
+    r, a, b = np.real(x), np.real(low), np.real(high)
+    value = np.where(r < a, low, x)
+    value = np.where(b < np.real(value), high, value)
+    if np.iscomplexobj(value):
+        value = np.where(r == a, np.real(value) + 0.5j * (np.imag(x) + np.imag(low)), value)
+        value = np.where(r == b, np.real(value) + 0.5j * (np.imag(x) + np.imag(high)), value)
+    return value
+
+
+def _smaller(a: Any, b: Any, sign: int) -> Any:
+    """Return the smaller (sign 1) or larger (-1) of two, NaN where one is NaN."""
+    left, right = sign * np.real(a), sign * np.real(b)
+    value = np.where(left < right, a, np.where(right <= left, b, a + b))
+    if np.iscomplexobj(value):
+        value = np.where(left == right, np.real(value) + 0.5j * (np.imag(a) + np.imag(b)), value)
+    return value
+
+
+def _slope_at(x: Any, at: Any, of: Any) -> Any:
+    """Return the mean of the slopes on both sides of x."""
+    slopes = np.concatenate([[0], np.diff(of) / np.diff(at), [0]]).astype(at.dtype)
+    before, after = np.searchsorted(at, x, side="left"), np.searchsorted(at, x, side="right")
+    mean = (slopes[before] + slopes[after]) / at.dtype.type(2)
+    return np.where(np.isnan(x), at.dtype.type(0), mean)
+
+
+def _look_up(x: Any, *table: float) -> Any:
+    real = np.asarray(np.real(x))
+    at, of = np.asarray(table, dtype=real.dtype).reshape(2, -1)
+    value = np.interp(real, at, of).astype(real.dtype)[()]
+    return value + 1j * (_slope_at(real, at, of) * np.imag(x)) if np.iscomplexobj(x) else value
+
+
+def _look_up_slope(x: Any, *table: float) -> Any:
+    real = np.asarray(np.real(x))
+    return _slope_at(real, *np.asarray(table, dtype=real.dtype).reshape(2, -1))
+
+
 _NUMPY: dict[str, Any] = {
     "_truth": _truth,
     "_if_else_zero": _if_else_zero,
@@ -262,6 +369,11 @@ _NUMPY: dict[str, Any] = {
     "_sign": lambda x: np.sign(np.real(x)),
     "_floor": lambda x: np.floor(np.real(x)),
     "_ceil": lambda x: np.ceil(np.real(x)),
+    "_saturation": _saturation,
+    "_minimum": lambda a, b: _smaller(a, b, 1),
+    "_maximum": lambda a, b: _smaller(a, b, -1),
+    "_look_up": _look_up,
+    "_look_up_slope": _look_up_slope,
     "_fmin": lambda a, b: _extreme(a, b, np.real(a) <= np.real(b)),
     "_fmax": lambda a, b: _extreme(a, b, np.real(a) >= np.real(b)),
 }
@@ -287,16 +399,10 @@ _INFIX_NUMPY = {
 Array = NDArray[Any]
 
 
-def numpy_callable(function: ca.Function) -> Callable[..., tuple[Array, ...]]:
-    """Lower an SX function to a NumPy callable, for an oracle that must not know CasADi.
-
-    The callable takes one array for each argument, of shape (n,) or (n, k): k evaluations at once. It accepts complex
-    numbers (for derivatives by complex step) and keeps single precision. It returns dense arrays of shape
-    (rows, k), or (rows, columns, k) for matrix outputs; without the last axis if no argument had it.
-    """
-    record = tape(function)
+def _lowered(steps: Sequence[Step], outputs: Sequence[Sequence[int]], name: str) -> Callable[..., Any]:
+    """Return a function of arrays that gives tuples of steps."""
     lines = ["def lowered(*a):"]
-    for index, step in enumerate(record.steps):
+    for index, step in enumerate(steps):
         if step.operation == "input":
             text = f"a[{step.place[0]}][{step.place[1]}]"
         elif step.operation == "const":
@@ -306,11 +412,22 @@ def numpy_callable(function: ca.Function) -> Callable[..., tuple[Array, ...]]:
             pattern = _INFIX_NUMPY.get(step.operation)
             text = pattern.format(*names) if pattern else f"_{step.operation}({', '.join(names)})"
         lines.append(f"    t{index} = {text}")
-    results = ", ".join("(" + "".join(f"t{item}, " for item in output) + ")" for output in record.outputs)
+    results = ", ".join("(" + "".join(f"t{item}, " for item in output) + ")" for output in outputs)
     lines.append(f"    return ({results},)")
     space: dict[str, Any] = {**_NUMPY, "__name__": __name__}
-    exec(compile("\n".join(lines), f"<{function.name()} in NumPy>", "exec"), space)
-    lowered = space["lowered"]
+    exec(compile("\n".join(lines), f"<{name} in NumPy>", "exec"), space)
+    return space["lowered"]  # type: ignore[no-any-return]
+
+
+def numpy_callable(function: ca.Function) -> Callable[..., tuple[Array, ...]]:
+    """Lower an SX function to a NumPy callable, for an oracle that must not know CasADi.
+
+    The callable takes one array for each argument, of shape (n,) or (n, k): k evaluations at once. It accepts complex
+    numbers (for derivatives by complex step) and keeps single precision. It returns dense arrays of shape
+    (rows, k), or (rows, columns, k) for matrix outputs; without the last axis if no argument had it.
+    """
+    record = tape(function)
+    lowered = _lowered(record.steps, record.outputs, function.name())
     shapes = [function.size_out(index) for index in range(function.n_out())]
     places = [
         (function.sparsity_out(index).row(), function.sparsity_out(index).get_col())
@@ -334,6 +451,94 @@ def numpy_callable(function: ca.Function) -> Callable[..., tuple[Array, ...]]:
         return tuple(answers)
 
     return evaluate
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Pieces
+
+MOST_PIECES = 16
+"""Pieces of one table that are told apart; of a longer one, neighbours count as one."""
+
+
+@dataclass(frozen=True)
+class PieceStep:
+    """A piecewise function on a tape.
+
+    Attributes
+    ----------
+    operation : str
+        Which.
+    number : int
+        Its number among those of the tape.
+    depends : tuple of (argument, element)
+        The inputs that its first argument depends on.
+    """
+
+    operation: str
+    number: int
+    depends: tuple[tuple[int, int], ...]
+
+    def piece(self, arguments: Sequence[float]) -> str:
+        """Return in words on which piece its arguments are; empty for NaN."""
+        x = arguments[0]
+        if any(math.isnan(item) for item in arguments):
+            return ""
+        kinks = self.kinks(arguments)
+        if self.operation in TABLES and len(kinks) > MOST_PIECES:
+            k = int(np.searchsorted(kinks, x, side="right"))
+            return f"{self.operation} {self.number}: piece {-(-k * MOST_PIECES // len(kinks))}"
+        k = int(np.searchsorted(kinks, x, side="left"))
+        on_it = k < len(kinks) and kinks[k] == x
+        return f"{self.operation} {self.number}: {'kink' if on_it else 'piece'} {k}"
+
+    def kinks(self, arguments: Sequence[float]) -> list[float]:
+        """Return where its first argument meets kinks, rising."""
+        rest = arguments[1:]
+        return list(rest[: len(rest) // 2] if self.operation in TABLES else rest)
+
+
+class Pieces:
+    """Tells on which pieces of its piecewise functions a function is evaluated.
+
+    Parameters
+    ----------
+    function : casadi.Function
+        An SX function.
+    """
+
+    def __init__(self, function: ca.Function):
+        record = tape(function)
+        found: dict[tuple[int, ...], int] = {}
+        for k, step in enumerate(record.steps):
+            if step.operation in PIECEWISE:
+                found.setdefault(step.arguments, k)  # a table and its slope at one place count once
+        self.steps = [
+            PieceStep(record.steps[k].operation, number, _inputs_of(record.steps, record.steps[k].arguments[0]))
+            for number, k in enumerate(found.values(), start=1)
+        ]
+        self._arguments = _lowered(record.steps, list(found), function.name()) if found else None
+
+    def arguments(self, *given: Array) -> list[list[float]]:
+        """Return what each piecewise function is called with, in the precision of what is given."""
+        if self._arguments is None:
+            return []
+        with np.errstate(all="ignore"):
+            return [[float(item) for item in one] for one in self._arguments(*given)]
+
+    def met(self, *given: Array) -> list[str]:
+        """Return the pieces in words."""
+        answers = self.arguments(*given)
+        return [text for step, one in zip(self.steps, answers, strict=True) if (text := step.piece(one))]
+
+
+def _inputs_of(steps: Sequence[Step], root: int) -> tuple[tuple[int, int], ...]:
+    waiting, seen = [root], {root}
+    while waiting:
+        for item in steps[waiting.pop()].arguments:
+            if item not in seen:
+                seen.add(item)
+                waiting.append(item)
+    return tuple(sorted(steps[item].place for item in seen if steps[item].operation == "input"))
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -414,5 +619,9 @@ def _text_of(
             return f"({arguments[1][0]} if {arguments[0][0]} else 0)", 9
         case operation if operation in _RELATIONS:
             return f"({arguments[0][0]} {_RELATIONS[operation]} {arguments[1][0]})", 9
+        case operation if operation in TABLES:
+            count = len(arguments) // 2
+            ends = f"{arguments[1][0]} .. {arguments[count][0]}"
+            return f"{operation}({arguments[0][0]}, {count} points over {ends})", 9
         case operation:
             return f"{operation}({', '.join(text for text, _ in arguments)})", 9

@@ -65,7 +65,7 @@ def output_regulator(
     plant : Plant
         What is controlled.
     point : OperatingPoint or dict
-        x* and u*, where the plant was linearised.
+        x* and u*, where the plant was linearised; of a `ParametricRegulator` x* has to be that of its equations.
     gain : Gain, or (acting inputs, n) array
         K; A - B K has to be stable.
     solution : RegulatorSolution or ParametricRegulator
@@ -109,6 +109,7 @@ def output_regulator(
     if isinstance(solution, ParametricRegulator):
         from .retunable_regulator import retunable_feedback
 
+        _check_set_point(name, plant, point, solution)
         feedback = retunable_feedback(
             plant,
             gain,
@@ -124,7 +125,7 @@ def output_regulator(
             name=f"{plant.name}_feedback", dt=rate,
         )  # fmt: skip
     if estimator is not None:
-        where = OperatingPoint.at(plant, point)
+        where = solution.point if isinstance(solution, ParametricRegulator) else OperatingPoint.at(plant, point)
         parts["estimator"] = estimator
         joined |= wires("estimator", "feedback", plant.states)
         acting = [item.name for item in _acting(plant, nominal)]
@@ -132,6 +133,17 @@ def output_regulator(
     parts["feedback"] = feedback
     text = doc or f'output regulator of the plant "{plant.name}": follows {", ".join(nominal.model.outputs)}'
     return connect(parts, joined, name, settled=True, doc=text)
+
+
+def _check_set_point(owner: str, plant: Plant, point: Mapping[Any, Any], solution: ParametricRegulator) -> None:
+    """Refuse a set point that is not the one that u*(p) holds."""
+    mine, theirs = OperatingPoint.at(plant, point).states, solution.point.states
+    for name, value in mine.items():
+        if name in theirs and not np.allclose(value, theirs[name], rtol=1e-9, atol=1e-12):
+            raise ModelError(
+                f"{owner}: the point has {name} = {value}, and the regulator equations were solved for the set point {theirs[name]}"
+                "; give the point that parametric_francis was given"
+            )
 
 
 def _generators(

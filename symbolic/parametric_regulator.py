@@ -44,6 +44,8 @@ class ParametricRegulator:
         What is left of the equilibrium where Newton's steps found it; empty where it was solved exactly.
     nominal : RegulatorSolution
         The numeric solution at the point.
+    point : OperatingPoint
+        Where that is.
     """
 
     parameters: ca.SX
@@ -54,6 +56,7 @@ class ParametricRegulator:
     pivots: ca.SX
     residual: ca.SX
     nominal: RegulatorSolution = field(repr=False)
+    point: OperatingPoint = field(repr=False)
 
     def at(self, p: Any) -> dict[str, Array]:
         """Return everything as numbers, for a parameter vector."""
@@ -115,7 +118,8 @@ def parametric_francis(
     x = ca.SX(ca.DM(where.x))
     at = [ca.substitute(item, ca.vertcat(plant.x, plant.u), ca.vertcat(x, u)) for item in linear_matrices(linear)]
     Pi, Gamma, more = _solved(plant, where, nominal, *at)
-    return ParametricRegulator(plant.p, x, u, Pi, Gamma, ca.vertcat(ca.SX(0, 1), pivots, more), residual, nominal)
+    guards = ca.vertcat(ca.SX(0, 1), pivots, more)
+    return ParametricRegulator(plant.p, x, u, Pi, Gamma, guards, residual, nominal, where)
 
 
 def linear_matrices(linear: SymbolicLinearisation) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX]:

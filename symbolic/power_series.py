@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .analysis import OperatingPoint, Values
+from .components import vector_of
 from .design import digits_of
 from .errors import ModelError
 from .exosystems import Exosystem
@@ -83,14 +84,14 @@ class RegulatorSeries:
 
     def truncated(self, order: int) -> RegulatorSeries:
         """Return the same series cut off after a lower degree."""
-        if not 1 <= order <= self.order:
+        if not isinstance(order, int) or not 1 <= order <= self.order:
             raise ModelError(f"{self.plant.name}: the series has order {self.order}; cut it off at 1 to {self.order}")
         cut = {name: getattr(self, name)[:order] for name in ("exponents", "state_maps", "input_maps", "degrees")}
         return replace(self, order=order, **cut)
 
     def at(self, w: Any) -> tuple[Array, Array]:
         """Return pi(w) (n,) and gamma(w) (p,) at a point w (r,), as numbers."""
-        point = np.asarray(w, dtype=float).ravel()
+        point = self._vector("w", w)
         return self._equations.values(self.state_maps, point), self._equations.values(self.input_maps, point)
 
     def terms(self) -> tuple[list[list[tuple[tuple[int, ...], float]]], list[list[tuple[tuple[int, ...], float]]]]:
@@ -123,6 +124,10 @@ class RegulatorSeries:
             In the order of `terms`, rows one after another, such as run-time parameters. Default: the numbers,
             rounded to 9 digits.
         """
+        if ca.SX(w).numel() != len(self.exosystem_states):
+            raise ModelError(
+                f"{self.plant.name}: w has {ca.SX(w).numel()} element(s); give {len(self.exosystem_states)}"
+            )
         answers = []
         given_all = (state_coefficients, input_coefficients)
         for rows, given, own in zip(self.terms(), given_all, self.rounded().values(), strict=True):
@@ -143,7 +148,10 @@ class RegulatorSeries:
         The equations are evaluated as they stand, by CasADi: nothing of the Taylor arithmetic takes part but the slopes of the
         polynomials.
         """
-        return self._left(np.asarray(w, dtype=float).ravel())[0]
+        return self._left(self._vector("w", w))[0]
+
+    def _vector(self, what: str, given: Any) -> Array:
+        return vector_of(self.plant.name, what, given, len(self.exosystem_states))
 
     def _left(self, w: Array) -> tuple[Array, float]:
         return self._equations.residual(self.state_maps, self.input_maps, w)
@@ -159,7 +167,7 @@ class RegulatorSeries:
             Falling; the slope is log(residual / next residual) / log(amplitude / next amplitude). It tends to order + 1, or to
             the next degree that does not vanish. NaN for the last one, and where a residual is rounding.
         """
-        line = np.asarray(direction, dtype=float).ravel()
+        line = self._vector("the direction of w", direction)
         found = [self._left(amplitude * line) for amplitude in amplitudes]
         sizes = [float(np.linalg.norm(left)) for left, _ in found]
         sound = [size > EXACT * scale for size, (_, scale) in zip(sizes, found, strict=True)]

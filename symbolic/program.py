@@ -9,13 +9,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
+from .expressions import Pieces
 from .origins import Origin
 from .signals import Signal, Status
 
@@ -276,11 +277,19 @@ class Evaluate:
     comment: tuple[str, ...] = ()
     origins: tuple[tuple[Origin, ...], ...] = ()
 
+    @cached_property
+    def pieces(self) -> Pieces:
+        """The piecewise functions that it evaluates."""
+        return Pieces(self.function)
+
     def run(self, frame: Frame) -> None:
         arguments = []
         for places in self.reads:
             parts = [np.asarray(frame.values[place], dtype=float).ravel() for place, _ in places]
             arguments.append(ca.DM(np.concatenate(parts) if parts else np.zeros(0)))
+        if frame.visits is not None and self.pieces.steps:
+            for met in self.pieces.met(*[np.array(item).ravel() for item in arguments]):
+                frame.visited(self, met)
         function = frame.patches.get(self.function.name(), self.function)
         outputs = function.call(arguments)
         for output, places in zip(outputs, self.writes, strict=True):

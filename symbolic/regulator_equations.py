@@ -428,7 +428,7 @@ class RegulatorSolution:
         view, S, shares = self.model, self.exosystem.matrix, [0.0]
         for part in parts_of(S):  # each by itself: a large disturbance hides nothing of a small reference
             own = S[np.ix_(part, part)], self.reference[:, part], self.disturbance[:, part]
-            shares.append(_worst_share(view, *own, Pi[:, part], Gamma[:, part]))
+            shares.append(worst_share(view, *own, Pi[:, part], Gamma[:, part]))
         share = float(np.max(shares))  # NaN where one is
         return {"residual of the regulator equations, of their terms": (share, 2e-8)}
 
@@ -522,11 +522,11 @@ def _judged(view: LinearModel, S: Array, Q: Array, P: Array, z: Array, full: boo
         if not other < SOLVABLE:
             return relative
         relative = other  # it was rounding, in a row of large numbers
-    share = _worst_share(view, S, Q, P, z[:n], z[n:])
+    share = worst_share(view, S, Q, P, z[:n], z[n:])
     return relative if share < SOLVABLE else share
 
 
-def _worst_share(view: LinearModel, S: Array, Q: Array, P: Array, Pi: Array, Gamma: Array) -> float:
+def worst_share(view: LinearModel, S: Array, Q: Array, P: Array, Pi: Array, Gamma: Array) -> float:
     """Return what is left of an equation (a row, over the states of one part), of its own terms; the worst of all.
 
     A row is an equation in one unit. Those whose terms are below 1e-13 of the largest, rows brought to one size, are rounding.

@@ -312,11 +312,9 @@ def _recorded(block: Block, series: RegulatorSeries, reach: Array, gain: Gain | 
 
     def made_of(target: Block, values: dict[str, Any]) -> Block:
         other = series.with_coefficients(values)  # refuses what does not fit
-        given = {name: np.ravel(np.asarray(item, dtype=float)) for name, item in values.items()}
-        if gain is not None and (given["gain"].size != gain.gain.size or not np.all(np.isfinite(given["gain"]))):
-            raise ModelError(
-                f"{block.name}: the gain of design.json has {given['gain'].size} numbers; give {gain.gain.size}"
-            )
+        given = {name: np.ravel(np.asarray(values[name], dtype=float)) for name in GROUPS}
+        if gain is not None:
+            given["gain"] = gain.checked(block.name, values["gain"]).ravel()
         target.param_signals = [
             replace(signal, default=tuple(map(float, given[signal.name]))) if signal.name in given else signal
             for signal in block.param_signals
@@ -326,7 +324,9 @@ def _recorded(block: Block, series: RegulatorSeries, reach: Array, gain: Gain | 
         return target
 
     def properties(values: dict[str, Any]) -> dict[str, tuple[float, float]]:
-        return series.properties(values) | ({} if gain is None else gain.properties(values["gain"]))
+        return series.properties(values) | (
+            {} if gain is None else gain.properties(gain.checked(block.name, values["gain"]))
+        )
 
     source = series.source() if gain is None else f"{series.source()}-{gain.source()}"
     return made_of(block, series.rounded() if gain is None else {**series.rounded(), "gain": gain.rounded()})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import casadi as ca
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..reference.controllers import Range
 from ..reference.regulation import RegulatorFeedback, RetunedRegulator
+from .analysis import OperatingPoint, linearise
 from .block import Block, Scenario
 from .controllers import gain_range
 from .design import Gain
@@ -30,7 +32,7 @@ from .output_regulator import _acting
 from .parametric_regulator import ParametricRegulator
 from .plant import Plant, Symbol
 from .program import AllOf, Compare, Element, Entry, Evaluate, Place, Refuse, Statement, Within
-from .regulator_equations import closed_loop
+from .regulator_equations import closed_loop, regulated, worst_share
 from .signals import Signal, Status
 
 Array = NDArray[Any]
@@ -40,6 +42,10 @@ LEAST_PIVOT = 0.01
 
 LARGEST_RESIDUAL = 1.0e-3
 """Rates that Newton's steps may leave of an equilibrium; beyond, the parameters are refused (BAD_PARAM)."""
+
+
+SAME_PLANT = 1.0e-6
+"""What expressions of another plant's equations may leave of this one's, of their terms."""
 
 
 def retunable_feedback(
@@ -80,11 +86,13 @@ def retunable_feedback(
     RegulatorError
         If the gain does not stabilise the plant.
     ModelError
-        If the plant has no parameters, or shapes do not match.
+        If the plant has no parameters, shapes do not match, or the regulator is that of another plant.
     """
-    name, solution = name or f"{plant.name}_feedback", regulator.nominal
+    name = name or f"{plant.name}_feedback"
     if not plant.parameters:
         raise ModelError(f"{name}: the plant {plant.name!r} has no parameters to follow; use regulator_feedback")
+    regulator = _of_plant(name, plant, regulator)
+    solution = regulator.nominal
     law = FeedbackLaw(plant, tuple(_acting(plant, solution)), saturate)
     K = law.checked(name, gain)
     rate = plant.dt if isinstance(plant.dt, float) else dt or solution.exosystem.dt
@@ -112,6 +120,66 @@ def retunable_feedback(
     block.oracle = _oracle(block, law, regulator, K, places, generated)
     block.scenario = _scenario(law, regulator, K, places, generated)
     return block
+
+
+def _of_plant(owner: str, plant: Plant, regulator: ParametricRegulator) -> ParametricRegulator:
+    """Return expressions in the parameters of this plant, which may be the same one made again; refuse another."""
+    theirs = regulator.point.plant
+    if _names(plant) != _names(theirs) or plant.p.numel() != theirs.p.numel():
+        raise ModelError(
+            f"{owner}: the regulator equations were solved for a plant with states, inputs and parameters "
+            f"{', '.join(_names(theirs))}, and {plant.name!r} has {', '.join(_names(plant))}; solve them for this plant"
+        )
+    names = ("inputs", "state_map", "input_map", "pivots", "residual")
+    moved: dict[str, Any] = {
+        name: ca.substitute(getattr(regulator, name), regulator.parameters, plant.p) for name in names
+    }
+    made = replace(regulator, parameters=plant.p, **moved)
+    _check_plant(owner, plant, made)
+    return made
+
+
+def _check_plant(owner: str, plant: Plant, regulator: ParametricRegulator) -> None:
+    """Refuse expressions that do not solve the regulator equations of this plant, at the nominal parameters and near them."""
+    own = plant
+    if regulator.nominal.model.dt is None and plant.discretisation is not None:  # maps of the continuous plant
+        own = plant.discretisation.continuous
+    low, high = (np.concatenate([getattr(item.signal, end) for item in own.parameters]) for end in ("low", "high"))
+    for factor in (1.0, 1.01):
+        p = np.clip(factor * regulator.point.p, low, high)
+        share, what = _left(own, regulator, p)
+        if not share <= SAME_PLANT:
+            raise ModelError(
+                f"{owner}: the regulator equations were solved for another plant than {plant.name!r} (what they give leaves "
+                f"{share:.3g} of its terms in {what}); solve them for this plant"
+            )
+
+
+def _names(plant: Plant) -> list[str]:
+    return [state.signal.name for state in plant.states] + [
+        symbol.signal.name for symbol in (*plant.inputs, *plant.parameters)
+    ]
+
+
+def _left(plant: Plant, regulator: ParametricRegulator, p: Array) -> tuple[float, str]:
+    """Return what u*(p), Pi(p) and Gamma(p) leave of a plant's equations, of their terms, and of which."""
+    found = regulator.at(p)
+    values: dict[str, Any] = {}
+    groups = [[state.signal for state in plant.states]]
+    groups += [[symbol.signal for symbol in group] for group in (plant.inputs, plant.parameters)]
+    for signals, vector in zip(groups, (found["states"], found["inputs"], p), strict=True):
+        start = 0
+        for signal in signals:
+            within = np.clip(np.ravel(vector)[start : start + signal.size], signal.low, signal.high)
+            values[signal.name], start = within, start + signal.size
+    at = OperatingPoint.at(plant, values)
+    source = linearise(plant.discretisation.continuous if plant.discretisation else plant, at)
+    terms = np.abs(source.A) @ np.abs(at.x) + np.abs(source.B) @ np.abs(at.u)
+    held = float(np.max(np.abs(at.residual) / np.maximum(terms, 1e-3), initial=0.0))
+    view, Q, P = regulated(linearise(plant, at), regulator.nominal.exosystem)
+    S = regulator.nominal.exosystem.matrix
+    solved = worst_share(view, S, Q, P, found["state_map"], found["input_map"])
+    return max((held, "the equations of the set point"), (solved, "the regulator equations"))
 
 
 def _set_point(regulator: ParametricRegulator) -> Array:

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from .expressions import Step, operation_code, tape
+from .expressions import PIECEWISE, Step, operation_code, tape
+from .piecewise import called
 
-_COMMUTE = frozenset({"add", "fmin", "fmax", "eq", "ne", "and", "or"})
+_COMMUTE = frozenset({"add", "fmin", "fmax", "eq", "ne", "and", "or", "minimum", "maximum"})
 
 
 @dataclass(frozen=True)
@@ -107,6 +108,8 @@ class Subexpressions:
         if node.operation == "product":
             return self._product_of(node, made, values)
         arguments = [made[item] for item in node.arguments]
+        if node.operation in PIECEWISE:
+            return called(node.operation, arguments)
         code = operation_code(node.operation)
         return ca.SX.unary(code, arguments[0]) if len(arguments) == 1 else ca.SX.binary(code, *arguments)
 

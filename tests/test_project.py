@@ -143,12 +143,17 @@ DOCTESTED = [
     "plantc.symbolic.plant",
     "plantc.symbolic.block",
     "plantc.symbolic.analysis",
+    "plantc.symbolic.command_filter",
     "plantc.symbolic.composition",
     "plantc.symbolic.controllers",
     "plantc.symbolic.design",
+    "plantc.symbolic.fuzzy",
+    "plantc.symbolic.intervals",
+    "plantc.symbolic.piecewise",
     "plantc.symbolic.power_series",
     "plantc.symbolic.regulator_equations",
     "plantc.symbolic.regulator_map",
+    "plantc.symbolic.sliding_mode",
     "plantc.symbolic.taylor",
 ]
 

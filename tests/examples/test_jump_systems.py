@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from plantc.examples import jump_systems
 from plantc.reference.jump_matrix import JumpEstimator, JumpSystem, discrete_parts, simulate
-from plantc.simulation import closed_loop
+from plantc.simulation import Start, channels, closed_loop, draw, monte_carlo, replay
 from plantc.simulation.closed_loop import simulate as run_loop
 from scipy.linalg import solve_discrete_are
 
@@ -271,3 +271,85 @@ def test_the_estimate_is_fed_back_held_for_a_step():
     )
     np.testing.assert_allclose(history.truth[1:], expected, rtol=0, atol=1e-13)
     assert np.max(np.abs(error)) > 1e-3
+
+
+# -- the compiled Monte-Carlo, without commands -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "choice", "strengths"), [("spring", "jacobian", (1, 4)), ("van_der_pol", "online", (10, 25))]
+)
+def test_the_mean_square_error_of_a_run_is_that_of_section_3(name, choice, strengths):
+    """Plant and estimator as one C call, beside both by hand, at the same noise: k = 1 .. N, the start included."""
+    system = jump_systems.SYSTEMS[name]()
+    estimator = jump_matrix_estimator(system.model, choice, initial_variance=1.0, around=system.start)
+    loop = closed_loop(system.model.truth if choice == "online" else system.plant, estimator, system.start)
+    steps = 300
+    result = monte_carlo(loop, runs=2, steps=steps, seed=5)
+    assert result.count("kept") == 2
+    hand, x0 = by_hand(name, *strengths)
+    for run in range(2):
+        noise = {item.name: draw(item, 5, run, steps) for item in channels(loop.noises)}
+        assert noise.keys() == {"w", "z_noise"}  # the true values are read without noise
+        truth = simulate(hand, x0, np.zeros((steps, 0)), noise["w"], np.zeros((steps, 1)))
+        filter_ = JumpEstimator(hand, choice, x0.copy(), np.eye(3))
+        errors = []
+        for k in range(steps):
+            filter_.step(truth[k + 1, 0] + noise["z_noise"][k, 0], np.zeros(0), truth[k], truth[k + 1])
+            errors.append(truth[k + 1] - filter_.x)
+        squares = np.mean(np.square(errors), axis=0)
+        for state, expected in zip(loop.layout.states, squares, strict=True):
+            assert result.judgements[run].metrics[f"error_{state.name}"] == pytest.approx(expected, rel=1e-8)
+    history = replay(loop, 1, steps=steps, seed=5)
+    assert history.commands.shape == (steps, 0)
+
+
+def test_the_other_noise_is_another_error():
+    """The companion: the number above is not met by the noise of another run."""
+    system = jump_systems.spring()
+    estimator = jump_matrix_estimator(system.model, initial_variance=1.0, around=system.start)
+    result = monte_carlo(closed_loop(system.plant, estimator, system.start), runs=2, steps=300, seed=5)
+    first, second = result.every("error_x1")
+    assert abs(first / second - 1) > 1e-2
+
+
+def test_a_known_start_needs_no_command_where_there_is_none():
+    system = jump_systems.spring()
+    estimator = jump_matrix_estimator(system.model, initial_variance=1.0, around=system.start)
+    loop = closed_loop(system.plant, estimator, system.start)
+    history = replay(loop, 0, steps=1, start=Start({"x1": 0.1}, known=True), std={"w": 0.0, "z_noise": 0.0})
+    # x3 of the start is that of the set point, in truth and estimate alike
+    np.testing.assert_allclose(history.truth, history.estimate, rtol=0, atol=1e-14)
+
+
+EXPECTED = [
+    # variance of w, of the reading, P_0; section 6
+    (1, 0.1, 0, 0.0016014), (1, 4, 0, 0.0070415), (1, 100, 0, 0.0090163), (0.1, 4, 0, 0.00088374), (10, 4, 0, 0.032720),
+    (1, 0.1, 1, 0.0024282), (1, 4, 1, 0.028160), (1, 100, 1, 0.10716), (0.1, 4, 1, 0.024832), (10, 4, 1, 0.047209),
+]  # fmt: skip
+
+
+@pytest.mark.slow
+def test_the_mean_square_error_of_the_linear_case():
+    """h = 0, 400 runs for each row, one compiled loop: within 4 % of the exact expectation (section 6)."""
+    system = jump_systems.spring(h=0.0)
+    estimator = jump_matrix_estimator(system.model, initial_variance=0.0, variance_floor=0.0, around=system.start)
+    loop = closed_loop(system.plant, estimator, system.start)
+    for q, r, p0, expected in EXPECTED:
+        params = {f"controller.variance_{name}_0": p0 for name in ("x1", "x2", "cubic")}
+        params |= {"controller.variance_w": q, "controller.variance_z": r}
+        std = {"w": np.sqrt(q), "z_noise": np.sqrt(r)}
+        result = monte_carlo(loop, runs=400, steps=1000, seed=7, params=params, std=std)
+        assert result.mean("error_x1").value == pytest.approx(expected, rel=0.04), (q, r, p0)
+
+
+def test_runs_that_escape_count_as_diverged():
+    """The soft spring has saddles at |x1| = 2: beyond them a run escapes to infinity (section 5.1)."""
+    system = jump_systems.spring(h=-0.5, noise=10.0)
+    estimator = jump_matrix_estimator(system.model, initial_variance=1.0, around=system.start)
+    result = monte_carlo(closed_loop(system.plant, estimator, system.start), runs=100, steps=1000, seed=2)
+    errors = result.every("error_x1", above=1e3)
+    diverged = np.mean(np.isinf(errors))
+    assert result.count("frozen") == np.sum(np.isinf(errors))
+    assert 0.08 < diverged < 0.3
+    assert np.sum(np.isinf(result.every("error_x1", above=float(np.median(errors))))) == 50

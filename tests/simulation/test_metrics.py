@@ -76,6 +76,12 @@ def test_the_numbers_are_the_formulas_of_the_specification():
         total["estimate_to_set_point"] += np.linalg.norm(made.point - estimate) ** 2 / 30
         total["error"] += np.linalg.norm(x - estimate) ** 2 / 30
         total["regulation"] += np.linalg.norm(x - made.point) ** 2 / 30
+        start = 0
+        for state in made.states:
+            at = slice(start, start + state.size)
+            start += state.size
+            name = f"error_{state.name}"
+            total[name] = total.get(name, 0.0) + np.linalg.norm(x[at] - estimate[at]) ** 2 / 30
         total["nees"] += (x - estimate) @ np.linalg.solve(matrix, x - estimate) / 30
     total["nis_gps"] = float(np.mean(made.nis["gps"]))
     assert found == pytest.approx(total, rel=1e-9)

@@ -451,7 +451,7 @@ def test_refusals():
         regulator_series(coupled().discretise("rk4", dt=(0.01, 0.1)), {}, harmonic("x1", 1.0), 2)
     with pytest.raises(ModelError, match="the series has order 2; cut it off at 1 to 2"):
         regulator_series(plant, {}, harmonic("x1", 1.0), 2).truncated(3)
-    with pytest.raises(ModelError, match="w has 3 element"):
+    with pytest.raises(ModelError, match=r"w has shape \(3,\); give 2 finite numbers"):
         regulator_series(plant, {}, harmonic("x1", 1.0), 2).residual([1, 2, 3])
 
 

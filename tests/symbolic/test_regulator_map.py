@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import casadi as ca
 import numpy as np
 import pytest
 from plantc.codegen import InterpretView
@@ -129,6 +130,24 @@ def test_the_amplitude_is_positive(series, amplitude):
         regulator_map(series, amplitude=amplitude)
 
 
+def test_other_sizes_are_sentences(series, regulator):
+    values = regulator.design.values
+    for make, says in (
+        (lambda: series.at([1.0, 2.0, 3.0]), r"w has shape \(3,\); give 2 finite numbers"),
+        (lambda: series.at("here"), "w is 'here'; give 2"),
+        (lambda: series.slopes([1.0], [0.2, 0.1]), r"the direction of w has shape \(1,\); give 2"),
+        (lambda: series.expressions(ca.SX.sym("w", 3)), r"w has 3 element\(s\); give 2"),
+        (lambda: series.truncated("low"), "cut it off at 1 to 5"),
+        (
+            lambda: regulator.design.rebuild({**values, "gain": ["much"] * 4}),
+            "the gain of design.json is .*; give a matrix",
+        ),
+        (lambda: regulator.design.properties({**values, "gain": np.ones((3, 1))}), r"has shape \(3, 1\); give 1 x 4"),
+    ):
+        with pytest.raises(ModelError, match=says):
+            make()
+
+
 def test_a_vector_input_acts_as_a_whole():
     plant = Plant("pair")
     x, u = plant.state("x"), plant.input("u", size=2)
@@ -212,7 +231,7 @@ def test_the_record_of_a_regulator(series, regulator):
     assert again.design.source == regulator.design.source and list(again.tables) == list(regulator.tables)
     defaults = {signal.name: signal.default for signal in again.param_signals}
     assert defaults["gain"] == tuple(1.5 * values["gain"]) and defaults["push"] == (0.0,)
-    with pytest.raises(ModelError, match="the gain of design.json has 3 numbers; give 4"):
+    with pytest.raises(ModelError, match=r"the gain of design.json has shape \(1, 3\); give 1 x 4"):
         regulator.design.rebuild({**values, "gain": [1.0, 2.0, 3.0]})
     own = regulator_feedback(series, gain_of(series.plant).gain, amplitude=0.8)
     assert set(own.design.values) == {"state_coefficients", "input_coefficients"}

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from plantc.symbolic import retunable_regulator
 from plantc.symbolic.exosystems import compose, constant, polynomial
 from plantc.symbolic.output_regulator import output_regulator
 from plantc.symbolic.parametric_regulator import parametric_francis
@@ -14,13 +15,15 @@ from plantc.symbolic.signal_generators import kalman_exosystem
 from plantc import InterpretView, ModelError, Plant, ReferenceView, cross_check, linearise, lqr, trim
 
 
-def lift():
+def lift(gravity=9.81, of_drag=1.0):
     """A rotor that carries a weight; the slope it stands on is measured."""
     plant = Plant("lift")
     height, climb = plant.state("height", unit="m", range=(-100, 100)), plant.state("climb", range=(-100, 100))
     rotor, wind = plant.input("rotor", unit="rad/s", range=(0, 1000)), plant.input("wind", range=(-10, 10))
     mass, drag = plant.parameter("mass", 1.0, range=(1e-6, 4)), plant.parameter("drag", 0.3, range=(0, 2))
-    plant.dynamics({height: climb, climb: 2e-4 * rotor**2 / mass - 9.81 - drag * climb / mass + wind / mass})
+    plant.dynamics(
+        {height: climb, climb: 2e-4 * rotor**2 / mass - gravity - of_drag * drag * climb / mass + wind / mass}
+    )
     return plant.discretise("euler", dt=0.02)
 
 
@@ -78,10 +81,13 @@ def test_what_is_refused(parts):
         retunable_feedback(plant, np.ones((1, 3)), regulator)
 
 
-def test_a_wrong_map_is_seen_by_the_oracle(parts):
-    """The planted fault: Gamma is off by a thousandth; the oracle solves the equations by another road."""
+def test_a_wrong_map_is_seen_by_the_oracle(parts, monkeypatch):
+    """The planted fault: Gamma is off by a thousandth; it is refused, and the oracle solves the equations by another road."""
     plant, _, regulator, gain = parts
     wrong = replace(regulator, input_map=1.001 * regulator.input_map)
+    with pytest.raises(ModelError, match="in the regulator equations"):
+        retunable_feedback(plant, gain, wrong)
+    monkeypatch.setattr(retunable_regulator, "_check_plant", lambda *given: None)
     block = retunable_feedback(plant, gain, wrong)
     first, second = (view(block) for view in (InterpretView, ReferenceView))
     ours, theirs = (view.init(view.params()) for view in (first, second))
@@ -128,3 +134,47 @@ def test_the_gain_is_judged_at_the_rate_of_a_continuous_plant():
     assert retunable_feedback(plant, gain, regulator, dt=0.02).sample_time == 0.02
     with pytest.raises(RegulatorError, match="A - B K has spectral radius"):
         retunable_feedback(plant, gain, regulator, dt=0.5)
+
+
+@pytest.mark.parametrize(
+    ("other", "says"),
+    [
+        (lift(gravity=1.62), "in the equations of the set point"),
+        (lift(of_drag=1.5), "in the regulator equations"),
+    ],
+)
+def test_a_solution_of_another_plant_is_refused(parts, other, says):
+    plant, _, regulator, gain = parts
+    with pytest.raises(
+        ModelError, match=rf"solved for another plant than 'lift' \(what they give leaves \S+ of its terms {says}"
+    ):
+        retunable_feedback(other, gain.gain, regulator)
+    retunable_feedback(lift(), gain.gain, regulator)  # the same plant, made again
+    small = Plant("little")
+    x, u, k = small.state("x"), small.input("u"), small.parameter("k", 1.0, range=(0.5, 2))
+    small.dynamics({x: k * u - x})
+    wide = parametric_francis(small, trim(small, hold={"x": 0}), constant("x"))
+    with pytest.raises(
+        ModelError, match="states, inputs and parameters x, u, k, and 'lift' has height, climb, rotor, wind"
+    ):
+        retunable_feedback(plant, gain.gain, wide)
+
+
+def test_a_solution_that_differs_only_at_other_parameters_is_refused(parts):
+    """Alike at the nominal parameters, and nowhere else."""
+    _, _, regulator, gain = parts
+    other = Plant("lift")
+    height, climb = other.state("height", unit="m", range=(-100, 100)), other.state("climb", range=(-100, 100))
+    rotor, wind = other.input("rotor", unit="rad/s", range=(0, 1000)), other.input("wind", range=(-10, 10))
+    mass, drag = other.parameter("mass", 1.0, range=(1e-6, 4)), other.parameter("drag", 0.3, range=(0, 2))
+    other.dynamics({height: climb, climb: 2e-4 * rotor**2 / mass**2 - 9.81 - drag * climb / mass + wind / mass})
+    with pytest.raises(ModelError, match="in the equations of the set point"):
+        retunable_feedback(other.discretise("euler", dt=0.02), gain.gain, regulator)
+
+
+def test_another_set_point_is_refused(parts):
+    plant, generator, regulator, gain = parts
+    observer = kalman_exosystem(generator, process_variance=1e-6, measurement_variance=1e-4)
+    says = r"the point has height = 5\.0, and the regulator equations were solved for the set point 0\.0"
+    with pytest.raises(ModelError, match=says):
+        output_regulator(plant, {"height": 5.0}, gain, regulator, observer)
