@@ -29,15 +29,15 @@ class Proved:
         Of all that the proof rests on: see `digest_of`.
     properties : int
         How many properties were looked at.
-    effort : int
-        How many states the analyser kept apart.
+    efforts : list of int
+        How many states the analyser kept apart: tried in this order while something stayed open.
     seconds : float
-        How long it took, on the machine that did it, with what did not do before.
+        How long it took, on the machine that did it.
     """
 
     digest: str
     properties: int
-    effort: int
+    efforts: list[int]
     seconds: float
 
 
@@ -63,14 +63,14 @@ def analyser() -> str:
     return run_tool([tool("frama-c", "frama-c-base"), "-version"], Path("."), seconds=60.0).stdout.strip()
 
 
-def digest_of(block: Block, text: CText, task: Task, effort: int) -> str:
+def digest_of(block: Block, text: CText, task: Task, efforts: list[int]) -> str:
     """Return the digest of all that the proof of a function rests on.
 
-    That is the C and the harness that the analyser reads, what is asked of it, how many states it keeps apart, its version,
-    and the Python that calls it and judges its answer. With how many states it was tried before is no part of it.
+    That is the C and the harness that the analyser reads, what is asked of it, how many states it kept apart, its version,
+    and the Python that calls it and judges its answer. What another function needed is no part of it.
     """
     parts = [
-        *(text.header, proof_source(block, text, task), str(task.assertions), str(effort)),
+        *(text.header, proof_source(block, text, task), str(task.assertions), str(efforts)),
         *(str(OPTIONS), analyser(), *map(inspect.getsource, JUDGES)),
     ]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()
@@ -90,7 +90,7 @@ def not_on_record(block: Block, text: CText, record: Record) -> list[str]:
     return [
         task.name
         for task in proof_tasks(block, text)
-        if task.name not in known or known[task.name].digest != digest_of(block, text, task, known[task.name].effort)
+        if task.name not in known or known[task.name].digest != digest_of(block, text, task, known[task.name].efforts)
     ]
 
 
@@ -112,9 +112,9 @@ def record_proof(block: Block, text: CText, record: Record) -> tuple[dict[str, P
     for check in done.checks:
         name = check.name.removeprefix("proof of ")
         if check.passed:
-            effort = done.facts["efforts"][name]
-            digest = digest_of(block, text, tasks[name], effort)
-            found[name] = Proved(digest, check.calls, effort, float(check.note.removesuffix(" s")))
+            efforts = done.facts["efforts"][name]
+            digest = digest_of(block, text, tasks[name], efforts)
+            found[name] = Proved(digest, check.calls, efforts, float(check.note.removesuffix(" s")))
         else:
             faults.append(f"{name}: {check.note}")
     return {name: found[name] for name in tasks if name in found}, faults
