@@ -195,11 +195,29 @@ class Graph:
         return a.arguments[0] if a.operation == "not" else None
 
     def _simple_div(self, a: Node, b: Node) -> Node | None:
+        slope = self._slope_of_extreme(a, b)
+        if slope is not None:
+            return slope
         if b.operation == "const" and b.value != 0.0 and math.isfinite(1.0 / b.value):
             return self.make("mul", self.const(1.0 / b.value), a)
         if a.operation == "neg":
             return self.make("neg", self.make("div", a.arguments[0], b))
         return None
+
+    def _slope_of_extreme(self, a: Node, b: Node) -> Node | None:
+        """Return, without a division, CasADi's derivative of fmin and fmax: t / (t + u) with t = (p <= q), u = (q <= p)."""
+        if b.operation != "add" or a not in b.arguments:
+            return None
+        other = b.arguments[0] if b.arguments[1] is a else b.arguments[1]
+        one, zero = self.const(1.0), self.const(0.0)
+        if any(item.operation != "select" or item.arguments[1:] != (one, zero) for item in (a, other)):
+            return None
+        this, that = a.arguments[0], other.arguments[0]
+        if this.operation != "le" or that.operation != "le" or this.arguments != that.arguments[::-1]:
+            return None
+        neither = self.make("add", *this.arguments)  # where one of them is NaN, and the quotient is 0 / 0
+        tied = self.make("select", that, self.const(0.5), one)
+        return self.make("select", this, tied, self.make("select", that, zero, neither))
 
     def from_tape(self, tape: Tape, inputs: Sequence[Sequence[Node]]) -> list[list[Node]]:
         """Return the output nodes of a tape.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from itertools import islice, pairwise
 from typing import Any
 
@@ -20,10 +21,31 @@ Given = dict[Place, Any]
 MOST_MOVES = 60
 """Of one entry."""
 
+NEAR = 1e-4
+"""Relative distance from a kink within which single precision may be on the other side of it."""
 
-def on_every_piece(
-    block: Block, entry: Entry, memory: Fields, inputs: Fields, params: Fields
-) -> list[tuple[Element, float]]:
+
+@dataclass(frozen=True)
+class Move:
+    """An element of the memory or of the inputs, and the number it is to have.
+
+    Attributes
+    ----------
+    element : Element
+        Which; of a part with its name before it.
+    number : float
+        A number of single precision.
+    on_kink : bool
+        An argument is on a kink in either precision, and none is so near to one that rounding would decide: every view takes
+        the same branch.
+    """
+
+    element: Element
+    number: float
+    on_kink: bool
+
+
+def on_every_piece(block: Block, entry: Entry, memory: Fields, inputs: Fields, params: Fields) -> list[Move]:
     """Return, for an entry, which element to change, and to what.
 
     An element of the memory or an input is moved until the argument of a saturation, a table ... is where it is wanted: on
@@ -43,9 +65,7 @@ def on_every_piece(
     return list(islice(found, MOST_MOVES))
 
 
-def _of_entry(
-    block: Block, entry: Entry, path: str, memory: Fields, inputs: Fields, params: Fields
-) -> Iterator[tuple[Element, float]]:
+def _of_entry(block: Block, entry: Entry, path: str, memory: Fields, inputs: Fields, params: Fields) -> Iterator[Move]:
     values: Given = {}
     signals: dict[Place, Signal] = {}
     for space, group, fields in (
@@ -69,9 +89,7 @@ def _of_entry(
             yield from _of_entry(part, part.entries[statement.entry], below, memory, inputs, params)
 
 
-def _of_evaluation(
-    statement: Evaluate, path: str, values: Given, signals: Mapping[Place, Signal]
-) -> Iterator[tuple[Element, float]]:
+def _of_evaluation(statement: Evaluate, path: str, values: Given, signals: Mapping[Place, Signal]) -> Iterator[Move]:
     if any(place not in values for places in statement.reads for place, _ in places):
         return  # something that a statement before it computes
     base = _arguments(statement, values, float)
@@ -81,8 +99,8 @@ def _of_evaluation(
         for target in _targets(step, base[k]):
             found = _moved(statement, path, k, target, values, signals, base[k][0])
             if found is not None:
-                element, number = found
-                yield Element(Place(element.place.space, path + element.place.name), element.index), number
+                place = found.element.place
+                yield replace(found, element=Element(Place(place.space, path + place.name), found.element.index))
 
 
 def _arguments(statement: Evaluate, values: Given, real: type) -> list[list[float]]:
@@ -104,7 +122,7 @@ def _targets(step: PieceStep, arguments: list[float]) -> list[float]:
 
 def _moved(
     statement: Evaluate, path: str, k: int, target: float, values: Given, signals: Mapping[Place, Signal], now: float
-) -> tuple[Element, float] | None:
+) -> Move | None:
     """Return an element and the number with which a piecewise function's argument is a target."""
     step = statement.pieces.steps[k]
     is_kink = target in step.kinks(_arguments(statement, values, float)[k])
@@ -123,18 +141,34 @@ def _moved(
             if is_kink:
                 single = _with(statement, k, values, place, index, number, np.float32)
                 if reached == target and single[0] == np.float32(target) == target:
-                    return Element(place, index), number
+                    changed = _changed(values, place, index, number)
+                    return Move(Element(place, index), number, _is_decided(statement, changed))
             elif abs(reached - target) <= 1e-3 * max(abs(target - now), abs(target)):
-                return Element(place, index), number
+                return Move(Element(place, index), number, False)
     return None
+
+
+def _is_decided(statement: Evaluate, values: Given) -> bool:
+    """Whether rounding decides no branch: what is near a kink is the same number in either precision."""
+    exact, single = (_arguments(statement, values, real) for real in (float, np.float32))
+    for step, arguments, rounded in zip(statement.pieces.steps, exact, single, strict=True):
+        kinks = step.kinks(arguments)
+        scale = max(1e-3, *map(abs, kinks))
+        if min(abs(arguments[0] - kink) for kink in kinks) <= NEAR * scale and arguments[0] != rounded[0]:
+            return False
+    return True
+
+
+def _changed(values: Given, place: Place, index: int, number: float) -> Given:
+    elements = values[place].copy()
+    elements[index] = number
+    return {**values, place: elements}
 
 
 def _with(
     statement: Evaluate, k: int, values: Given, place: Place, index: int, number: float, real: type
 ) -> list[float]:
-    changed = values[place].copy()
-    changed[index] = number
-    return _arguments(statement, {**values, place: changed}, real)[k]
+    return _arguments(statement, _changed(values, place, index, number), real)[k]
 
 
 def _element(statement: Evaluate, argument: int, position: int) -> tuple[Place, int]:

@@ -78,6 +78,9 @@ EFFECT = np.array(
 """u of the squared speeds of the rotors, section 4."""
 
 COMMANDS = {"u1": "N", "u2": "N", "u3": "N", "u4": "N m"}
+ASKED = {"u1": (0.0, 20.0), "u2": (-1e4, 1e4), "u3": (-1e4, 1e4), "u4": (-1e3, 1e3)}
+"""What may be asked of the rotors; what they apply is less."""
+
 STATES = ("roll", "roll_rate", "pitch", "pitch_rate", "yaw", "yaw_rate", "x", "vx", "y", "vy", "z", "vz")
 READ = ("roll", "pitch", "yaw", "x", "y", "z")
 
@@ -114,6 +117,8 @@ def vehicle(
     disturbed: bool = False,
     read: Sequence[str] = READ,
     variance: float = 1e-4,
+    commanded: bool = False,
+    seen: bool = False,
 ) -> Plant:
     """Return the continuous plant (eqs. 1 to 4).
 
@@ -132,6 +137,10 @@ def vehicle(
         The states that the sensor `pose` reads.
     variance : float
         Of each reading, m^2 or rad^2.
+    commanded : bool
+        Whether the inputs have the ranges of what a law may ask for, instead of what rotors apply.
+    seen : bool
+        Whether each state has a sensor of its own, ``seen_<state>``, that reads it without noise worth the name.
 
     Returns
     -------
@@ -147,12 +156,13 @@ def vehicle(
         doc = "altitude, upwards" if axis == "z" else "position"
         symbols[axis] = plant.state(axis, unit="m", range=(-FAR, FAR), doc=doc)
         symbols[f"v{axis}"] = plant.state(f"v{axis}", unit="m/s", range=(-FAR, FAR), doc=f"velocity along {axis}")
-    reach = 4 * THRUST_FACTOR * FASTEST**2
-    u1 = plant.input("u1", unit="N", range=(-reach, 2 * reach), doc="thrust, applied")
-    u2 = plant.input("u2", unit="N", range=(-reach, reach), doc="differential thrust that rolls, applied")
-    u3 = plant.input("u3", unit="N", range=(-reach, reach), doc="differential thrust that pitches, applied")
-    most = 4 * DRAG_FACTOR * FASTEST**2
-    u4 = plant.input("u4", unit="N m", range=(-most, most), doc="yaw torque, applied")
+    most, turning = 4 * THRUST_FACTOR * FASTEST**2, 4 * DRAG_FACTOR * FASTEST**2
+    ranges = {"u1": (-most, 2 * most), "u2": (-most, most), "u3": (-most, most), "u4": (-turning, turning)}
+    meanings = ("thrust", "differential thrust that rolls", "differential thrust that pitches", "yaw torque")
+    u1, u2, u3, u4 = (
+        plant.input(key, unit=unit, range=(ASKED if commanded else ranges)[key], doc=meaning)
+        for (key, unit), meaning in zip(COMMANDS.items(), meanings, strict=True)
+    )
     Om = plant.input("Om", unit="rad/s", range=(-4 * FASTEST, 4 * FASTEST), doc="residual speed of the rotors")
     own: dict[str, Any] = {}
     for key, unit in UNITS.items():
@@ -185,6 +195,8 @@ def vehicle(
     )
     pose = vertcat(*[symbols[item] for item in read])
     plant.sensor("pose", pose, variance=variance, range=(-2 * FAR, 2 * FAR), doc=", ".join(read))
+    for state in STATES if seen else ():
+        plant.sensor(f"seen_{state}", symbols[state], unit=symbols[state].signal.unit, variance=1e-12)
     return plant
 
 
@@ -237,4 +249,4 @@ def ekf(
 
 def mixer(name: str = "mixer") -> Block:
     """Return the mixer of section 4: commands u1 .. u4, the same applied, and `Om`."""
-    return rotor_mixer(EFFECT, COMMANDS, fastest=FASTEST, spins=(1, -1, 1, -1), residual="Om", name=name)
+    return rotor_mixer(EFFECT, COMMANDS, fastest=FASTEST, spins=(1, -1, 1, -1), residual="Om", ranges=ASKED, name=name)

@@ -11,8 +11,12 @@ from .models import UsageError
 if TYPE_CHECKING:
     from .simulation import StudyResult
 
-STUDIES = {"meda2018": "plantc.examples.meda2018", "regulation2023": "plantc.examples.regulation2023"}
-"""Name -> module; its ``study(runs, seed, *, on, progress)`` returns a `plantc.simulation.StudyResult` of that name."""
+STUDIES = {
+    "meda2018": "plantc.examples.meda2018",
+    "regulation2023": "plantc.examples.regulation2023",
+    "jump_matrix": "plantc.examples.jump_matrix",
+}
+"""Name -> module; its ``study(runs=..., seed=..., *, on, progress)`` returns a `plantc.simulation.StudyResult` of that name."""
 
 
 def find(name: str) -> Callable[..., StudyResult]:

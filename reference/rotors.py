@@ -45,3 +45,25 @@ class Mixer:
         outputs |= {name: applied[k : k + 1] for k, name in enumerate(self.commands)}
         outputs[self.residual] = np.atleast_1d(self.spins.astype(u.dtype) @ speeds)
         return was_held, {}, outputs
+
+
+def tilt(memory: Fields, inputs: Fields, params: Fields) -> tuple[bool, Fields, Fields]:
+    """Return roll and pitch for a wanted direction of the thrust, by turning it into the frame of the wanted yaw.
+
+    There the thrust is (cos(roll) sin(pitch), -sin(roll)); see `Formula`.
+    """
+    wanted, real = inputs["reference_yaw"], inputs["ux"].dtype.type
+    direction = (inputs["ux"] + 1j * inputs["uy"]) * np.exp(-1j * wanted)
+    roll_held, sine_roll = held(-np.imag(direction), -params["limit"], params["limit"])
+    roll = np.arcsin(sine_roll)
+    pitch_held, sine_pitch = held(np.real(direction) / np.cos(roll), -params["limit"], params["limit"])
+    turn = real(2 * np.pi)
+    near = wanted + turn * np.floor((inputs["yaw"] - wanted) / turn + real(0.5))
+    outputs = {
+        "sine_roll": sine_roll,
+        "sine_pitch": sine_pitch,
+        "roll": roll,
+        "pitch": np.arcsin(sine_pitch),
+        "yaw": near,
+    }
+    return roll_held or pitch_held, {}, outputs

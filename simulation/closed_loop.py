@@ -80,6 +80,8 @@ class ClosedLoop:
         Inputs of the loop that are the same in every step, such as the flags of the readings.
     layout : Layout
         Where everything lies.
+    readings : dict of str to str
+        Input of the controller -> the sensor that it reads.
     """
 
     block: Block
@@ -89,6 +91,7 @@ class ClosedLoop:
     point: OperatingPoint
     held: dict[str, float]
     layout: Layout
+    readings: dict[str, str]
 
     @cached_property
     def text(self) -> BatchText:
@@ -130,6 +133,7 @@ def closed_loop(
     point: Mapping[Any, Any],
     *,
     readings: Mapping[str, str] | None = None,
+    commands: Mapping[str, str] | None = None,
     held: Mapping[str, float] | None = None,
     name: str = "loop",
 ) -> ClosedLoop:
@@ -150,6 +154,9 @@ def closed_loop(
         The set point x*, u*: state or input -> value. Plant, estimate and commands start there.
     readings : dict, optional
         Input of the controller -> the sensor whose reading it gets, where the names do not say it, or say it of two.
+    commands : dict, optional
+        Input of the plant -> the output of the controller (dotted) that commands it, where two have its name: a law's wish, and
+        what a mixer of rotors made of it.
     held : dict, optional
         Other inputs of the controller -> a constant value.
     name : str
@@ -165,9 +172,9 @@ def closed_loop(
     expect(controller, Block, f"closed_loop {name!r}: the controller", "a Block with an entry 'step'")
     where = OperatingPoint.at(plant, point)
     truth = simulated_plant(plant, around={**where.states, **where.inputs}, name=f"{plant.name}_truth")
-    commands = [_command(controller, symbol.signal) for symbol in plant.inputs]
+    moved = _commands(controller, plant, commands or {})
     wires: dict[str, str | Delay] = {}
-    for symbol, command in zip(plant.inputs, commands, strict=True):
+    for symbol, command in zip(plant.inputs, moved, strict=True):
         wires[f"plant.{symbol.signal.name}"] = delay(f"controller.{command}", where.inputs[symbol.signal.name])
     constants: dict[str, float] = {}
     given = dict(held or {})
@@ -202,9 +209,10 @@ def closed_loop(
         spread,
         packing,
         _nis(controller, sensors),
-        tuple(f"controller.{command}" for command in commands),
+        tuple(f"controller.{command}" for command in moved),
     )  # fmt: skip
-    return ClosedLoop(block, truth, controller, noise_inputs(plant), where, constants, layout)
+    used = {name: sensor for name, sensor in read.items() if f"controller.{name}" in wires}
+    return ClosedLoop(block, truth, controller, noise_inputs(plant), where, constants, layout, used)
 
 
 def _leaves(signals: tuple[Signal, ...], prefix: str = "") -> list[Signal]:
@@ -217,18 +225,30 @@ def _leaves(signals: tuple[Signal, ...], prefix: str = "") -> list[Signal]:
     return answer
 
 
-def _command(controller: Block, wanted: Signal) -> str:
+def _commands(controller: Block, plant: Plant, given: Mapping[str, str]) -> list[str]:
+    """Return for each input of the plant the output of the controller that commands it."""
     if "step" not in controller.entries:
         raise ModelError(f"{controller.name}: it has no entry 'step'; a controller is called by it")
-    outputs = _leaves(controller.entries["step"].outputs)
-    found = [signal.name for signal in outputs if signal.name.split(".")[-1] == wanted.name]
-    if len(found) != 1:
-        has = ", ".join(signal.name for signal in outputs) or "none"
+    outputs = [signal.name for signal in _leaves(controller.entries["step"].outputs)]
+    names = [symbol.signal.name for symbol in plant.inputs]
+    strange = sorted(set(given) - set(names))
+    if strange:
         raise ModelError(
-            f"{controller.name}: {len(found)} of its outputs are named {wanted.name!r}, an input of the plant; exactly one has to "
-            f"command it; the outputs are {has}"
+            f"{controller.name}: commands= names {strange[0]!r}, which is no input of {plant.name}; it has {', '.join(names)}"
         )
-    return found[0]
+    answer = []
+    for name in names:
+        fits = [item for item in outputs if item.split(".")[-1] == name]
+        found = [given[name]] if given.get(name) in outputs else [] if name in given else fits
+        if len(found) != 1:
+            wrong = f"commands= gives {given[name]!r} for it; " if name in given else ""
+            raise ModelError(
+                f"{controller.name}: {len(fits)} of its outputs are named {name!r}, an input of the plant; {wrong}exactly one has "
+                f"to command it, and where names do not say which, commands={{{name!r}: ...}} does; the outputs are "
+                f"{', '.join(outputs) or 'none'}"
+            )
+        answer += found
+    return answer
 
 
 def _readings(
@@ -467,8 +487,7 @@ def simulate(
     command = {name: given[f"delay_plant_{name}_0"] for name in names}
     sources = dict(zip(names, [item.removeprefix("controller.") for item in loop.layout.commands], strict=True))
     held = {name.removeprefix("controller_"): value for name, value in loop.held.items()}
-    sensors = {sensor.signal.name: sensor.signal.size for sensor in loop.point.plant.sensors}
-    wired = {s.name: _sensor_of(s, sensors) for s in loop.controller.entries["step"].inputs if s.name not in held}
+    wired = loop.readings
     memories: list[dict[str, Any]] = []
     outputs: list[dict[str, Any]] = []
     statuses: list[int] = []

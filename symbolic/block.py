@@ -273,9 +273,9 @@ class Block:
         output_docs : dict, optional
             Output name -> its meaning.
         limits : dict, optional
-            Output name -> (low, high), each a number (or one for each element), a parameter or an expression: the
-            output is held between them, and where that changes it the status is CLAMPED. What is not a number is
-            refused (OVERFLOW).
+            Output name -> (low, high), each a number (or one for each element), a parameter, an expression, or None for no
+            limit on that side: the output is held between them, and where that changes it the status is CLAMPED. What is
+            not a number is refused (OVERFLOW).
         guards : sequence of (expression, Status)
             Where an expression is zero (false), the call is refused with the (negative) status, in this order.
         doc : str
@@ -391,19 +391,20 @@ class Block:
             size = answers[key].numel()
             place = Place("local", f"free_{key}")
             free[place.name] = answers[key]
-            sides = []
+            held = free[place.name]
+            beyond: list[Statement] = []
             relations: tuple[Literal["<", ">"], ...] = ("<", ">")
             for word, relation, end in zip(("least", "most"), relations, ends, strict=True):
+                if end is None:
+                    continue
                 expression, operands = self._limit(key, f"{word}_{key}", end, size)
                 if isinstance(operands[0], Element) and operands[0].place.space == "local":
                     free[operands[0].place.name] = expression
-                sides.append(expression)
-                beyond = [Compare(Element(place, k), relation, item) for k, item in enumerate(operands)]
-                statements.append(
-                    When(AnyOf(tuple(beyond)), (Raise(Status.CLAMPED),), (), f"{key} was held at a limit")
-                )
-            answers[key] = ca.fmin(ca.fmax(free[place.name], sides[0]), sides[1])
-            statements.insert(-2, Refuse(Status.OVERFLOW, Within(place, (-FREE,) * size, (FREE,) * size)))
+                held = ca.fmax(held, expression) if relation == "<" else ca.fmin(held, expression)
+                past = [Compare(Element(place, k), relation, item) for k, item in enumerate(operands)]
+                beyond.append(When(AnyOf(tuple(past)), (Raise(Status.CLAMPED),), (), f"{key} was held at a limit"))
+            answers[key] = held
+            statements += [Refuse(Status.OVERFLOW, Within(place, (-FREE,) * size, (FREE,) * size)), *beyond]
         return _Held(free, statements)
 
     def _limit(self, key: str, local: str, given: Any, size: int) -> tuple[ca.SX, list[Operand]]:

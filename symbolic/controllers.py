@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..reference import controllers as reference
 from . import quaternions
-from .analysis import OperatingPoint
+from .analysis import HAUTUS_TOLERANCE, OperatingPoint, linearise
 from .block import Block, Design
 from .components import (
     Calls,
@@ -28,11 +28,12 @@ from .components import (
     rounded_up,
     seconds,
 )
-from .design import Gain
+from .design import Gain, closed_loop_eigenvalues
 from .errors import ModelError
 from .filters import low_pass, notch, rate_limiter, saturation
 from .linear_systems import state_space, transfer_function
 from .plant import Plant, Symbol, wrap
+from .regulator_equations import closed_loop, model_of
 from .signals import Signal
 
 __all__ = [
@@ -62,6 +63,7 @@ def state_feedback(
     *,
     name: str = "",
     saturate: bool = False,
+    accept_unstable: bool = False,
     doc: str = "",
 ) -> Block:
     """Return the controller u = u* - K (x - x*).
@@ -81,6 +83,8 @@ def state_feedback(
     saturate : bool
         Whether u is held within the ranges of the plant's inputs (status CLAMPED). Otherwise a call whose u would leave
         them is refused (OVERFLOW).
+    accept_unstable : bool
+        Whether a gain is accepted that makes the linearisation at the point unstable, in modes that the inputs reach.
     doc : str
         Its meaning.
 
@@ -92,6 +96,8 @@ def state_feedback(
 
     Raises
     ------
+    RegulatorError
+        If A - B K is unstable in a mode that the inputs reach; the sentence has the spectral radius, or the largest real part.
     ModelError
         If the gain has another shape, the point is outside a range, or the plant has no input.
 
@@ -118,8 +124,18 @@ def state_feedback(
             f"{name}: the gain has shape {K.shape}; give {shape[0]} x {shape[1]}, a row for each input of {plant.name!r} "
             "(u = u* - K (x - x*))"
         )
+    if not accept_unstable:
+        _check_stable(plant, where, gain.dt if isinstance(gain, Gain) else None, K)
     block = Block(name, doc=doc or f'state feedback of the plant "{plant.name}": u = u* - K (x - x*)')
-    taken = _declare_feedback(block, plant, where, K)
+    formula = _give_law(block, plant, _declare_feedback(block, plant, where, K), saturate)
+    finish(block, {"step": formula}, _around(plant, where, K, saturate))
+    if isinstance(gain, Gain):
+        block.design = _design(block, gain)
+    return block
+
+
+def _give_law(block: Block, plant: Plant, taken: dict[str, Symbol], saturate: bool) -> reference.StateFeedback:
+    """Give a block the entry `step`; return its oracle."""
     free, signals = _feedback_law(block, plant, taken)
     block.entry(
         "step",
@@ -139,10 +155,30 @@ def state_feedback(
         for state in plant.states
     )
     outputs = tuple((item.name, item.size, np.array(item.low), np.array(item.high)) for item in signals)
-    finish(block, {"step": reference.StateFeedback(kinds, outputs, saturate)}, _around(plant, where, K, saturate))
-    if isinstance(gain, Gain):
-        block.design = _design(block, gain)
-    return block
+    return reference.StateFeedback(kinds, outputs, saturate)
+
+
+UNSTABLE = 1.0e-6
+"""How far beyond the limit of stability an eigenvalue is refused: one on it is for who leaves an integrator alone."""
+
+
+def _check_stable(plant: Plant, where: OperatingPoint, dt: float | None, K: Array) -> None:
+    """Refuse a gain that makes unstable what it acts on; what the inputs do not reach is no fault of the gain."""
+    steps = plant.dt if isinstance(plant.dt, tuple) else (None,)
+    for step in steps:
+        model = model_of(linearise(plant, where, dt=step))
+        if model.dt is None and dt is not None:
+            model = model.sampled(dt)  # the gain was designed for commands that are held
+        values = closed_loop_eigenvalues(model.A, model.B, K)
+        beyond = values.real if model.dt is None else np.abs(values) - 1
+        if any(_reached(model.A, model.B, value) for value in values[beyond > UNSTABLE]):
+            closed_loop(model, K)
+
+
+def _reached(A: Array, B: Array, value: complex) -> bool:
+    """Whether a mode can be moved by an input: [A - s I, B] has full rank (Hautus 1969)."""
+    sizes = np.linalg.svd(np.hstack([A - value * np.eye(len(A)), B]), compute_uv=False)
+    return bool(sizes[len(A) - 1] > HAUTUS_TOLERANCE * sizes[0])
 
 
 def _declare_feedback(block: Block, plant: Plant, where: OperatingPoint, K: Array) -> dict[str, Symbol]:

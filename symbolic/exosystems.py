@@ -109,7 +109,7 @@ class Exosystem:
         Raises
         ------
         ModelError
-            If it is discrete already, or dt or method make no sense.
+            If it is discrete already, dt or method make no sense, or a frequency is at or beyond half the rate of sampling.
         """
         name = _listed(self.signals)
         if self.dt is not None:
@@ -119,6 +119,12 @@ class Exosystem:
         if method not in ("exact", "euler"):
             raise ModelError(f"exosystem of {name}: the method {method!r} is not known; take 'exact' or 'euler'")
         step = seconds(f"exosystem of {name}", dt)
+        fastest = float(np.max(np.abs(self.eigenvalues.imag), initial=0.0))
+        if fastest * step >= math.pi * (1 - 1e-12):
+            raise ModelError(
+                f"exosystem of {name}: {fastest:.6g} rad/s sampled every {step:g} s is at or beyond half the rate of sampling "
+                f"({math.pi / step:.6g} rad/s), where its samples are those of another signal; take a smaller dt"
+            )
         if self.parts:
             parts = tuple(part.sampled(step, method) for part in self.parts)
             values = np.concatenate([part.eigenvalues for part in parts])

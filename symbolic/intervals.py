@@ -89,10 +89,18 @@ def _bounded(step: Step, given: list[Interval]) -> Interval:
             return _cosine(a[0] - math.pi / 2, a[1] - math.pi / 2)
         case "cos":
             return _cosine(*a)
-        case "fmin":
+        case "fmin" | "minimum":
             return min(a[0], b[0]), min(a[1], b[1])
-        case "fmax":
+        case "fmax" | "maximum":
             return max(a[0], b[0]), max(a[1], b[1])
+        case "saturation":
+            return min(max(a[0], b[0]), given[2][0]), min(max(a[1], b[1]), given[2][1])
+        case "look_up" | "look_up_slope":
+            half = len(given) // 2
+            at, of = ([item[0] for item in side] for side in (given[1 : half + 1], given[half + 1 :]))
+            slopes = [(of[k + 1] - of[k]) / (at[k + 1] - at[k]) for k in range(half - 1)]
+            found = of if step.operation == "look_up" else [0.0, *slopes]
+            return min(found), max(found)
         case "if_else_zero":
             return min(b[0], 0.0), max(b[1], 0.0)
         case operation if operation in _RISING:

@@ -103,27 +103,16 @@ def output_regulator(
         that of another plant or point.
     """
     name = name or f"{plant.name}_regulator"
-    nominal = solution.nominal if isinstance(solution, ParametricRegulator) else solution
+    nominal = _nominal(name, solution, generator)
     parts, joined = _generators(name, generator, nominal)
     rate = _common_rate(name, plant, nominal, parts)
+    options: dict[str, Any] = {
+        "saturate": saturate, "accept_unstable": accept_unstable, "name": f"{plant.name}_feedback", "dt": rate,
+    }  # fmt: skip
     if isinstance(solution, ParametricRegulator):
-        from .retunable_regulator import retunable_feedback
-
-        _check_set_point(name, plant, point, solution)
-        feedback = retunable_feedback(
-            plant,
-            gain,
-            solution,
-            saturate=saturate,
-            accept_unstable=accept_unstable,
-            name=f"{plant.name}_feedback",
-            dt=rate,
-        )
+        feedback = _retunable(name, plant, point, gain, solution, options)
     else:
-        feedback = regulator_feedback(
-            plant, point, gain, solution, saturate=saturate, tunable=tunable, accept_unstable=accept_unstable,
-            name=f"{plant.name}_feedback", dt=rate,
-        )  # fmt: skip
+        feedback = regulator_feedback(plant, point, gain, solution, tunable=tunable, **options)
     if estimator is not None:
         where = solution.point if isinstance(solution, ParametricRegulator) else OperatingPoint.at(plant, point)
         parts["estimator"] = estimator
@@ -133,6 +122,37 @@ def output_regulator(
     parts["feedback"] = feedback
     text = doc or f'output regulator of the plant "{plant.name}": follows {", ".join(nominal.model.outputs)}'
     return connect(parts, joined, name, settled=True, doc=text)
+
+
+def _retunable(
+    owner: str,
+    plant: Plant,
+    point: Mapping[Any, Any],
+    gain: Any,
+    solution: ParametricRegulator,
+    options: dict[str, Any],
+) -> Block:
+    """Return the law that follows the parameters, at the set point of its equations."""
+    from .retunable_regulator import retunable_feedback
+
+    _check_set_point(owner, plant, point, solution)
+    return retunable_feedback(plant, gain, solution, **options)
+
+
+def _nominal(owner: str, solution: Any, generator: Any) -> RegulatorSolution:
+    """Return the numeric solution; refuse what stands in the wrong place."""
+    hints = {
+        "solution": "francis(linearise(plant, point), exosystem)",
+        "generator": "an observer of the exosystem, kalman_exosystem(exosystem, ...) or high_gain_exosystem(...)",
+    }
+    nominal = solution.nominal if isinstance(solution, ParametricRegulator) else solution
+    observers = list(generator.values()) if isinstance(generator, Mapping) else [generator]
+    for what, items, kind in (("solution", [nominal], RegulatorSolution), ("generator", observers, Block)):
+        for item in items:
+            if not isinstance(item, kind):
+                raise ModelError(f"{owner}: the {what} is of type {type(item).__name__}; give {hints[what]}")
+    assert isinstance(nominal, RegulatorSolution)
+    return nominal
 
 
 def _check_set_point(owner: str, plant: Plant, point: Mapping[Any, Any], solution: ParametricRegulator) -> None:

@@ -67,16 +67,9 @@ def exosystem_plant(
     """
     if exosystem.dt is None:
         raise ModelError(f"{name}: the exosystem of {', '.join(exosystem.signals)} is continuous; give it sampled(dt)")
-    for what, given in (
-        ("process_variance", process_variance),
-        ("measurement_variance", measurement_variance),
-        ("ranges", ranges),
-    ):
-        unknown = sorted(set(given) - set(exosystem.signals)) if isinstance(given, Mapping) else []
-        if unknown:
-            raise ModelError(
-                f"{name}: {what} names {', '.join(unknown)}, and the signals are {', '.join(exosystem.signals)}"
-            )
+    _check_named(
+        name, exosystem, process_variance=process_variance, measurement_variance=measurement_variance, ranges=ranges
+    )
     plant = Plant(name, dt=exosystem.dt, doc=f"signal generator of {', '.join(exosystem.signals)}")
     groups = signal_groups(exosystem)
     states = [plant.state(f"w_{signal}", size=len(columns), doc=f"generates {signal}") for signal, columns in groups]
@@ -90,26 +83,45 @@ def exosystem_plant(
         start += len(columns)
         noises[state] = _of_signal(name, "process_variance", process_variance, signal, len(columns))
     plant.dynamics(rates)
+    values = ca.SX(ca.sparsify(ca.DM(exosystem.output[:, order]))) @ w
+    _declare_readings(plant, exosystem, values, measurement_variance, ranges or {}, together)
+    return plant.step_noise(noises)
+
+
+def _check_named(name: str, exosystem: Exosystem, **given: Any) -> None:
+    """Refuse a dictionary that names what is no signal."""
+    for what, value in given.items():
+        unknown = sorted(set(value) - set(exosystem.signals)) if isinstance(value, Mapping) else []
+        if unknown:
+            raise ModelError(
+                f"{name}: {what} names {', '.join(unknown)}, and the signals are {', '.join(exosystem.signals)}"
+            )
+
+
+def _declare_readings(
+    plant: Plant,
+    exosystem: Exosystem,
+    values: ca.SX,
+    measurement_variance: Any,
+    ranges: Mapping[str, tuple[float, float]],
+    together: bool,
+) -> None:
+    """Declare a sensor for each signal, or one for all."""
+    variances = [
+        _of_signal(plant.name, "measurement_variance", measurement_variance, signal, 1)[0]
+        for signal in exosystem.signals
+    ]
     if together:
-        ends = [(ranges or {}).get(signal, (-WIDE, WIDE)) for signal in exosystem.signals]
+        ends = [ranges.get(signal, (-WIDE, WIDE)) for signal in exosystem.signals]
+        ends_of_all = tuple(low for low, _ in ends), tuple(high for _, high in ends)
+        told = f"readings of {', '.join(exosystem.signals)}"
+        plant.sensor("readings", values, variance=variances, range=ends_of_all, doc=told)
+        return
+    for row, (signal, variance) in enumerate(zip(exosystem.signals, variances, strict=True)):
         plant.sensor(
-            "readings", ca.SX(ca.sparsify(ca.DM(exosystem.output[:, order]))) @ w,
-            variance=[
-                _of_signal(name, "measurement_variance", measurement_variance, signal, 1)[0]
-                for signal in exosystem.signals
-            ],
-            range=(tuple(low for low, _ in ends), tuple(high for _, high in ends)),
-            doc=f"readings of {', '.join(exosystem.signals)}",
-        )  # fmt: skip
-        return plant.step_noise(noises)
-    for row, signal in enumerate(exosystem.signals):
-        expression = ca.SX(ca.sparsify(ca.DM(exosystem.output[row : row + 1, order]))) @ w
-        variance = _of_signal(name, "measurement_variance", measurement_variance, signal, 1)[0]
-        plant.sensor(
-            signal, expression, variance=variance, unit=exosystem.units[row], range=(ranges or {}).get(signal),
+            signal, values[row], variance=variance, unit=exosystem.units[row], range=ranges.get(signal),
             doc=f"reading of {signal}",
         )  # fmt: skip
-    return plant.step_noise(noises)
 
 
 def signal_groups(exosystem: Exosystem) -> list[tuple[str, list[int]]]:
@@ -205,22 +217,40 @@ def kalman_exosystem(
         together=together,
         name=name,
     )
+    told = f"the generator of {', '.join(exosystem.signals)}"
     if together:
         if steady:
             raise ModelError(f"{name}: with steady=True all readings come together anyway; leave out together=True")
         _one_noise(name, exosystem, process_variance, measurement_variance)
-        text = doc or f"Kalman filter as the generator of {', '.join(exosystem.signals)}, read together"
-        return _observes(shared_covariance.build(plant, exosystem, initial_variance, name, text, options), exosystem)
-    if steady:
+        text = doc or f"Kalman filter as {told}, read together"
+        made = shared_covariance.build(plant, exosystem, initial_variance, name, text, options)
+    elif steady:
         if options:
             raise ModelError(
                 f"{name}: {', '.join(options)} is for a filter with a covariance; leave it out, or steady=True"
             )
-        text = doc or f"Kalman filter in steady state as the generator of {', '.join(exosystem.signals)}"
-        return _observes(steady_state_kalman_filter(plant, name=name, doc=text), exosystem)
-    variances = {state.signal.name: float(initial_variance) for state in plant.states}
-    text = doc or f"Kalman filter as the generator of {', '.join(exosystem.signals)}"
-    return _observes(kalman_filter(plant, initial_variance=variances, name=name, doc=text, **options), exosystem)
+        made = steady_state_kalman_filter(plant, name=name, doc=doc or f"Kalman filter in steady state as {told}")
+    else:
+        variances = {state.signal.name: float(initial_variance) for state in plant.states}
+        text = doc or f"Kalman filter as {told}"
+        made = kalman_filter(plant, initial_variance=variances, name=name, doc=text, **options)
+    made.notes += _without_noise(exosystem, process_variance)
+    return _observes(made, exosystem)
+
+
+def _without_noise(exosystem: Exosystem, process_variance: Any) -> list[str]:
+    """Return what has to be said of signals whose process has no noise."""
+    still = [
+        signal
+        for signal, columns in signal_groups(exosystem)
+        if not any(_of_signal("", "process_variance", process_variance, signal, len(columns)))
+    ]
+    if not still:
+        return []
+    return [
+        f"No process noise for {', '.join(still)}: the gain decays like 1/k, and a reading moves the estimate less and less; a "
+        "reference that is changed one day is then not followed. Give process_variance where it may be, see bandwidth."
+    ]
 
 
 def _one_noise(name: str, exosystem: Exosystem, process_variance: Any, measurement_variance: Any) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,9 +17,11 @@ from .derivation import name_of
 from .errors import ModelError
 from .expressions import equation_text, numpy_callable
 from .fuzzy import FuzzySystem
-from .intervals import bounds
+from .intervals import Interval, bounds
+from .piecewise import saturated
 from .plant import Plant, State, Symbol, wrap
 from .signals import WIDE, Signal
+from .subexpressions import Subexpressions
 
 LARGEST = 1.0e3
 """How much larger than given lambda, mu, K and a width may be made at run time; where they are below one, than one."""
@@ -68,7 +70,7 @@ class Switching:
             return ca.tanh(v)
         if self.system is not None:
             return self.system(v)
-        return ca.if_else(v < -1, -1, ca.if_else(v > 1, 1, v))
+        return saturated(v, -1, 1)
 
 
 def sign() -> Switching:
@@ -216,6 +218,7 @@ class _Channel:
     numbers: dict[str, float]
     least: float | None
     limits: Ends | None
+    wraps: bool
 
     @property
     def name(self) -> str:
@@ -237,6 +240,7 @@ def sliding_mode(
     switching: Any,
     least: Mapping[Any, float] | None = None,
     saturate: bool | Mapping[Any, Ends] = False,
+    wrapped: Collection[Any] = (),
     name: str = "",
     doc: str = "",
 ) -> Block:
@@ -267,6 +271,8 @@ def sliding_mode(
     saturate : bool or dict
         True: each command is held within the range of its input (CLAMPED); a dict: input -> (low, high) that it is held within.
         Otherwise a call with a command outside its range is refused (OVERFLOW).
+    wrapped : collection
+        Outputs whose error is wrapped to [-pi, pi), beside those that were declared with ``angle=True``.
     name, doc : str
         Name of the block, default ``<plant>_sliding_mode``, and its meaning.
 
@@ -304,7 +310,7 @@ def sliding_mode(
     """
     name = name or f"{plant.name}_sliding_mode"
     source = _continuous(name, plant)
-    channels = _channels(name, source, commands, (surface, mu, gain, switching), least or {}, saturate)
+    channels = _channels(name, source, commands, (surface, mu, gain, switching), least or {}, saturate, wrapped)
     block = Block(
         name, doc=doc or f'sliding mode law of the plant "{plant.name}": {", ".join(c.name for c in channels)}'
     )
@@ -355,7 +361,7 @@ def _continuous(name: str, plant: Plant) -> Plant:
 
 def _channels(
     name: str, plant: Plant, commands: Mapping[Any, Any], given: tuple[Any, Any, Any, Any], least: Mapping[Any, float],
-    saturate: bool | Mapping[Any, Ends],
+    saturate: bool | Mapping[Any, Ends], wrapped: Collection[Any],
 ) -> list[_Channel]:  # fmt: skip
     """Return the channels, derived and judged."""
     if not isinstance(commands, Mapping) or not commands:
@@ -372,7 +378,10 @@ def _channels(
         )
     floors = {name_of(key): value for key, value in least.items()}
     ends = {name_of(key): value for key, value in saturate.items()} if isinstance(saturate, Mapping) else {}
-    for what, keys, known in (("least", floors, names), ("saturate", ends, [second for _, second in pairs])):
+    turning = {name_of(key) for key in wrapped}
+    for what, keys, known in (
+        ("least", set(floors), names), ("saturate", set(ends), [second for _, second in pairs]), ("wrapped", turning, names)
+    ):  # fmt: skip
         if set(keys) - set(known):
             raise ModelError(f"{name}: {what}= names {sorted(set(keys) - set(known))}; it may name {', '.join(known)}")
     answer: list[_Channel] = []
@@ -394,7 +403,9 @@ def _channels(
         signal = symbol.signal
         within = (signal.low[0], signal.high[0]) if saturate is True else _within(name, signal, ends.get(command))
         floor = _floor(name, plant, state, g, floors.get(output), answer)
-        answer.append(_Channel(state, symbol, rate, f, g, term, numbers, floor, within))
+        answer.append(
+            _Channel(state, symbol, rate, f, g, term, numbers, floor, within, state.signal.angle or output in turning)
+        )
     return answer
 
 
@@ -480,7 +491,7 @@ def _derived(name: str, plant: Plant, state: State, command: Symbol, later: list
             "state that it moves two integrations later"
         )
     second = ca.jtimes(rate, plant.x, ca.vertcat(*by_time))
-    g = ca.jacobian(second, command)
+    g = _without_calls(plant, ca.jacobian(second, command))
     if g.nnz() == 0:
         raise ModelError(
             f"{name}: the input {moved!r} does not move the second derivative of {output!r}; name one that does"
@@ -499,6 +510,15 @@ def _derived(name: str, plant: Plant, state: State, command: Symbol, later: list
     return rate, ca.substitute(second, command, ca.SX(0)), ca.densify(g)
 
 
+def _without_calls(plant: Plant, derivative: ca.SX) -> ca.SX:
+    """Return a derivative without the calls of piecewise functions that CasADi differentiates along nothing, and keeps."""
+    symbols = [ca.SX(item) for item in (*[s.symbol for s in plant.states], *plant.inputs, *plant.parameters)]
+    function = ca.Function("derivative", symbols, [ca.densify(derivative)])
+    if not any(function.instruction_id(k) == ca.OP_CALL for k in range(function.n_instructions())):
+        return derivative
+    return ca.sparsify(Subexpressions(symbols, [derivative]).rebuilt(0, {}))
+
+
 def _floor(
     name: str, plant: Plant, state: State, g: ca.SX, least: float | None, before: list[_Channel]
 ) -> float | None:
@@ -510,13 +530,7 @@ def _floor(
                 f"{name}: least of {output!r} is {least!r}; give a number that is not zero, with the sign of g"
             )
         return float(least)
-    symbols = [item for item in (*[s.symbol for s in plant.states], *plant.inputs, *plant.parameters)]
-    held = {own.command.signal.name: own.limits for own in before if own.limits is not None}
-    ranges = [
-        [held[item.signal.name]] if held.get(item.signal.name) else list(zip(*_range(item.signal), strict=True))
-        for item in symbols
-    ]  # fmt: skip
-    low, high = bounds(g, symbols, ranges)[0]
+    low, high = _bounds_of(g, plant, before)
     if low <= 0 <= high or not math.isfinite(1 / low) or not math.isfinite(1 / high):
         text = equation_text(g, plant.symbol_names())[0]
         raise ModelError(
@@ -524,6 +538,14 @@ def _floor(
             f"it is in {low:.4g} .. {high:.4g}; narrow the ranges, or give least={{{output!r}: ...}}, where to hold it"
         )
     return None
+
+
+def _bounds_of(g: ca.SX, plant: Plant, before: list[_Channel]) -> Interval:
+    """Return where g is, for the ranges of the plant and the limits of the commands that were found."""
+    symbols = [*[s.symbol for s in plant.states], *plant.inputs, *plant.parameters]
+    held = {own.command.signal.name: [own.limits] for own in before if own.limits is not None}
+    ranges = [held.get(item.signal.name) or list(zip(*_range(item.signal), strict=True)) for item in symbols]
+    return bounds(g, symbols, ranges)[0]
 
 
 def _uses(channels: list[_Channel], symbol: ca.SX) -> bool:
@@ -590,11 +612,11 @@ def _law(
     wide = _held_at(own)
     if wide is not None:
         outputs[f"input_gain_{q}"] = g
-        limits[f"input_gain_{q}"] = wide
+        limits[f"input_gain_{q}"] = (wide[0], None) if wide[0] > 0 else (None, wide[1])
         signals.append(Signal(f"input_gain_{q}", low=(wide[0],), high=(wide[1],), doc=f"g of {q}, held at its least"))
-        g = ca.fmin(ca.fmax(g, wide[0]), wide[1])
+        g = ca.fmax(g, wide[0]) if wide[0] > 0 else ca.fmin(g, wide[1])
     e = taken[q] - aim[0]
-    e = wrap(e) if signal.angle else e
+    e = wrap(e) if own.wraps else e
     slope = rate - aim[1]
     s = slope + coefficient * e
     term = K * own.switching(s, width)
@@ -650,12 +672,20 @@ def _oracle(plant: Plant, channels: list[_Channel]) -> reference.SlidingMode:
         tuple(
             reference.Channel(
                 own.name, own.state.error_at.start, own.command.signal.name, columns[own.command.signal.name],
-                own.state.signal.angle, own.switching.kind,
+                own.wraps, own.switching.kind,
                 own.switching.system.reference() if own.switching.system is not None else None, _held_at(own), own.limits,
             )
             for own in channels
         ),
     )  # fmt: skip
+
+
+def _far(plant: Plant, own: _Channel, channels: list[_Channel]) -> float:
+    """Return an acceleration for which a command that is held leaves its limits; 0 where none is."""
+    if own.limits is None:
+        return 0.0
+    largest = max(map(abs, _bounds_of(own.g, plant, channels)))
+    return 1.5 * max(map(abs, own.limits)) * (largest if math.isfinite(largest) else 1.0)
 
 
 def _following(
@@ -664,6 +694,7 @@ def _following(
     """Return steps in which states wander over what is ordinary of their ranges, and references beside them."""
     moving = {own.name: own.rate_state(plant) for own in channels}
     widths = {own.name: own.switching.width or 0.1 for own in channels}
+    far = {own.name: _far(plant, own, channels) for own in channels}
     spans = {
         name: [middle_of(ends, NEAR) for ends in zip(symbol.signal.low, symbol.signal.high, strict=True)]
         for name, symbol in taken.items()
@@ -672,7 +703,7 @@ def _following(
     def calls(rng: Any, steps: int) -> Iterator[tuple[str, dict[str, Any]]]:
         yield "init", {}
         drive = {name: np.zeros(len(ends)) for name, ends in spans.items()}
-        for _ in range(steps):
+        for k in range(steps):
             inputs = {}
             for name, ends in spans.items():
                 drive[name] = 0.8 * drive[name] + 0.6 * rng.normal(size=len(ends))
@@ -680,7 +711,8 @@ def _following(
             for name, (value, rate, acceleration) in aims.items():
                 moved = moving[name]
                 middle = inputs[moved.name] if moved is not None and moved.name in inputs else 0.0
-                for symbol, about in ((value, inputs[name]), (rate, middle), (acceleration, 0.0)):
+                beyond = far[name] * (-1) ** (k // 8) if k % 8 == 7 else 0.0
+                for symbol, about in ((value, inputs[name]), (rate, middle), (acceleration, beyond)):
                     wanted = about + 2 * widths[name] * np.tanh(rng.normal())
                     inputs[symbol.signal.name] = np.clip(np.ravel(wanted), symbol.signal.low, symbol.signal.high)
             yield "step", inputs

@@ -131,3 +131,20 @@ def test_adding_zero_and_multiplying_by_one_vanish(zero):
     assert a + graph.const(zero) is a
     assert a * graph.const(1.0) is a
     assert (a * graph.const(-1.0)).operation == "neg"
+
+
+@pytest.mark.parametrize("extreme", [ca.fmin, ca.fmax])
+@pytest.mark.parametrize("p", [1.0, 2.0, 3.0, float("nan"), float("inf")])
+def test_the_slope_of_an_extreme_takes_no_division(extreme, p):
+    x, y = ca.SX.sym("x"), ca.SX.sym("y")
+    function = ca.Function("slope", [x, y], [ca.jacobian(extreme(x, y), x), ca.jacobian(extreme(x, 2), x)])
+    graph = Graph()
+    loads = [graph.load("x", k, 0) for k in range(2)]
+    outputs = graph.from_tape(tape(function), [[item] for item in loads])
+    for (node,), wanted in zip(outputs, function(p, 2.0), strict=True):
+        assert "div" not in operations_of(node)
+        np.testing.assert_equal(evaluate(node, [p, 2.0]), float(wanted))
+
+
+def operations_of(node):
+    return {node.operation}.union(*(operations_of(item) for item in node.arguments))

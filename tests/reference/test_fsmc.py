@@ -1,6 +1,8 @@
 """The whole scheme of specs/ekf_fsmc.md in NumPy: its one-step values and its deterministic scenarios, section 11."""
 
 import dataclasses
+import runpy
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,49 +19,15 @@ from plantc.reference.fsmc import (
     trajectory,
 )
 
-X = np.array((0.1, 0.2, -0.15, 0.3, 0.7, -0.4, 1, 0.5, -1, 0.6, 2, -0.7))
-U = np.array((4.2, 0.1, -0.05, 0.01))
-OM = 12.0
-ACCELERATIONS = (5.42670725, -2.74217958, 1.38739029, -0.558816849, -1.85553872, 0.604229081)
-
-TABLE = {  # section 2: a1 .. a11, b1 .. b3
-    "A": (SET_A, "-0.863864 -0.145436 -0.00741549 0.863864 -0.145436 0.00741549 0 -0.0890602 -0.08 -0.08 -0.12 "
-                 "53.5556 53.5556 140.164"),
-    "B": (SET_B, "-1.000000 -0.145436 -0.00741549 1.000000 -0.145398 0.00741355 -1.30606e-4 -0.0829872 -1.14547e-3 "
-                 "-1.14547e-3 -1.30741e-3 65.3117 65.2946 130.606"),
-}  # fmt: skip
-
-ESTIMATE = (0.02, 0.1, -0.03, 0.2, 0.6, 0.1, 0.3, -0.2, 0.4, 0.1, 4.5, 0.3)
-ONE_STEP = {  # u1 .. u4, phi_r, theta_r
-    "FSMC": (4.38124724, -0.771709607, -0.933778169, 0.0186444432, -0.0836137321, -0.136111226),
-    "SMC": (4.54135129, -0.806407731, -0.963810902, 0.0186444432, -0.0806594264, -0.131252276),
-    "tanh": (4.37435594, -0.759034176, -0.919572678, 0.0173432612, -0.0814035062, -0.133938344),
-}
-D = {
-    0.5: (-0.11349578, -0.072548327, 0.0089403485, -0.51948752, 0.38336228, 0.96640262, 0.097748765, 0.32343436,
-          0.05646534, 0.33794989, 1.2412362, 3.3010975),
-    2.0: (0.019198279, 0.020255778, -0.033026781, 0.024969879, 0.78037015, 0.015080325, -0.080126006, -0.3232928,
-          0.47680847, 0.023567234, 4.1442986, 0.85568208),
-    10.0: (0.019971282, 0.019222855, -0.024877098, 0.017934373, 0.78528976, -0.0017796112, -0.0028614286, -0.39847503,
-           0.5048692, -0.0045980368, 4.9997299, -0.0015420769),
-}  # fmt: skip
-E = {
-    0.01: (-1.26232e-3, -0.298951, -6.93273e-4, -0.499854),
-    0.1: (-7.91208e-4, -0.292782, -1.31886e-3, -0.487966),
-    1.0: (-4.60700e-4, -0.170479, -7.49362e-4, -0.277256),
-}
-C = {  # tuning, law -> z error, velocity estimation error, and the tolerance of each
-    ("printed", "SMC"): (0.4997, 0.4978, 0.03),
-    ("printed", "FSMC"): (0.6395, 0.4978, 0.01),
-    ("robust", "SMC"): (0.0367, 0.0352, 0.03),
-    ("robust", "FSMC"): (0.1158, 0.0352, 0.01),
-}
-WRONG = np.array((0, 0, 0, 0, 0, 0, 0.2, 0.3, 0, 0, -0.2, 0.5))
+GOLDEN = runpy.run_path(str(Path(__file__).with_name("fsmc_goldens.py")))
+X, U, OM, ACCELERATIONS, TABLE = (GOLDEN[name] for name in ("X", "U", "OM", "ACCELERATIONS", "TABLE"))
+ESTIMATE, ONE_STEP, C, D, E, WRONG = (GOLDEN[name] for name in ("ESTIMATE", "ONE_STEP", "C", "D", "E", "WRONG"))
+VEHICLES = {"A": SET_A, "B": SET_B}
 
 
 @pytest.mark.parametrize("which", TABLE)
 def test_the_coefficients_of_section_2(which):
-    vehicle, text = TABLE[which]
+    vehicle, text = VEHICLES[which], TABLE[which]
     np.testing.assert_allclose([*vehicle.a[1:], *vehicle.b[1:]], [float(item) for item in text.split()], rtol=6e-6)
 
 

@@ -217,3 +217,34 @@ def test_the_loop_of_the_quadrotor_is_wired_as_the_specification_says(loop):
     first = made.command_parameters(np.array([1.0, 2, 3, 4]))
     assert first["delay_plant_rotor_3_0"] == first["controller.delay_estimator_rotor_3_0"] == [3.0]
     assert made.point["z"] == set_point[sampled.states[4].symbol]
+
+
+def test_of_two_outputs_with_the_name_of_an_input_one_is_said_to_command_it():
+    """A law asks, a valve gives: both by the name of what flows. Named readings are those of a loop over views, too."""
+    plant = Plant("tank", dt=1.0)
+    level = plant.state("level")
+    flow = plant.input("flow")
+    plant.dynamics({level: 0.9 * level + flow})
+    plant.sensor("gauge", level, variance=0.01)
+    law, valve = controller_of(["seen"], ["flow"]), Block("valve")
+    asked = valve.input("asked")
+    valve.entry("step", inputs=[asked], outputs={"flow": 0.5 * asked})
+    both = connect({"law": law, "valve": valve}, {"valve.asked": "law.flow"}, "both")
+    readings = {"law_seen": "gauge"}
+    with pytest.raises(ModelError, match=r"2 of its outputs are named 'flow'.*commands=\{'flow': \.\.\.\} does"):
+        closed_loop(plant, both, {}, readings=readings)
+    with pytest.raises(ModelError, match="commands= gives 'valve.flwo' for it"):
+        closed_loop(plant, both, {}, readings=readings, commands={"flow": "valve.flwo"})
+    with pytest.raises(ModelError, match="commands= names 'folw', which is no input of tank; it has flow"):
+        closed_loop(plant, both, {}, readings=readings, commands={"folw": "valve.flow"})
+    for source, share in (("law.flow", 1.0), ("valve.flow", 0.5)):
+        made = closed_loop(plant, both, {"level": 1.0}, readings=readings, commands={"flow": source})
+        compiled = run_batch(Batch(made.text), made.layout, {}, 3)
+        over_views = simulate(made, InterpretView(made.truth), InterpretView(made.controller), 3)
+        expected, x, u = [], 1.0, 0.0
+        for _ in range(3):
+            x = 0.9 * x + u
+            u = share * x
+            expected.append(u)
+        np.testing.assert_allclose(compiled.commands[:, 0], expected)
+        np.testing.assert_allclose(over_views.commands[:, 0], expected)

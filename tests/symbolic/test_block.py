@@ -8,6 +8,7 @@ import casadi as ca
 import numpy as np
 import pytest
 from plantc.codegen.crosscheck import cross_check
+from plantc.codegen.emit import emit
 from plantc.codegen.layout import flatten
 from plantc.codegen.views import InterpretView, NativeView
 from plantc.symbolic import Block, ModelError, Status, fmin, vertcat
@@ -243,6 +244,18 @@ def test_a_limit_may_be_an_expression():
     answer = view.call("step", view.init(), view.inputs("step", {"raw": 5.0}), view.params())
     assert (answer.status, answer.outputs["slow"], answer.memory["last"]) == (Status.CLAMPED, 1.0, 1.0)
     assert cross_check(block, steps=40).passed
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_an_output_may_be_held_on_one_side_only(side):
+    block = limited(limits={"command": (-2.0, None) if side == 0 else (None, 2.0)})
+    view = NativeView(block)
+    low, high = (-2.0, 900.0) if side == 0 else (-900.0, 2.0)
+    for raw in (-900.0, 1.0, 900.0):
+        answer = view.call("step", view.init(), view.inputs("step", {"raw": [raw, 1.0]}), view.params())
+        assert answer.outputs["command"][0] == min(max(raw, low), high)
+        assert answer.status == (Status.OK if low <= raw <= high else Status.CLAMPED)
+    assert emit(block).source.count("command was held at a limit") == 1
 
 
 def test_a_limit_does_not_hide_what_is_no_command():

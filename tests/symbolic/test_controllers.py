@@ -1,11 +1,13 @@
 """Controllers as Blocks: what they compute, their statuses, their oracles, and the C of each in float and double."""
 
 import json
+from dataclasses import replace
 
 import control
 import numpy as np
 import pytest
 from plantc.codegen.package import design_residuals, with_design
+from plantc.symbolic.regulator_equations import RegulatorError
 from scipy import signal
 from scipy.spatial.transform import Rotation
 
@@ -96,13 +98,53 @@ def test_all_views_of_a_state_feedback_agree(name, precision):
 
 
 def test_the_law():
-    view = InterpretView(state_feedback(pendulum(), {"angle": 0.1, "torque": 0.5}, [[3.0, 0.2]]))
+    law = state_feedback(pendulum(), {"angle": 0.1, "torque": 0.5}, [[3.0, 0.2]], accept_unstable=True)  # round numbers
+    view = InterpretView(law)
     _, _, out = step(view, angle=0.2, rate=-1.0)
     assert out["torque"] == pytest.approx(0.5 - 3.0 * 0.1 + 0.2)
     # the shorter way round: from -3.1 to the set point 3.1 is -0.083 rad
     moved = view.params(angle=3.1)
     _, _, out = step(view, params=moved, angle=-3.1, rate=0.0)
     assert out["torque"] == pytest.approx(0.5 - 3.0 * (2 * np.pi - 6.2))
+
+
+def test_a_gain_that_makes_the_plant_unstable_is_refused():
+    gain = place(linearise(pendulum()), [0.8, 0.85])
+    for turned in (-gain.gain, replace(gain, gain=-gain.gain)):
+        with pytest.raises(
+            RegulatorError, match=r"A - B K has spectral radius 1\.\d+, not below 1\); -K would, so look"
+        ):
+            state_feedback(pendulum(), {}, turned)
+        assert "step" in state_feedback(pendulum(), {}, turned, accept_unstable=True).entries
+    assert "step" in state_feedback(pendulum(), {}, gain).entries
+
+
+@pytest.mark.parametrize("dt", [None, 0.02, (0.01, 0.05)])
+def test_what_the_inputs_do_not_reach_is_no_fault_of_the_gain(dt):
+    """An integrator that is left alone, and a mode that no input moves; but not one that it could move."""
+    plant = Plant("cart")
+    x, v, far = plant.state("x"), plant.state("v"), plant.state("drift")
+    u = plant.input("u")
+    plant.dynamics({x: v, v: u, far: 0.1 * far})
+    plant = plant if dt is None else plant.discretise("euler", dt=dt)
+    assert "step" in state_feedback(plant, {}, [[0.0, 2.0, 0.0]]).entries
+    with pytest.raises(RegulatorError, match="the gain does not stabilise the plant"):
+        state_feedback(plant, {}, [[0.0, -2.0, 0.0]])
+
+
+def test_a_gain_for_held_commands_is_judged_with_them():
+    plant = Plant("cart")
+    x, v, u = plant.state("x"), plant.state("v"), plant.input("u", range=(-1e4, 1e4))
+    plant.dynamics({x: v, v: u})
+    linear = linearise(plant.discretise("exact", dt=0.5))
+    gain = lqr(linear, np.diag([1.0, 1.0]), np.eye(1))
+    assert "step" in state_feedback(plant, {}, gain).entries
+    fast = lqr(linearise(plant), np.diag([1e4, 10.0]), np.eye(1))
+    assert "step" in state_feedback(plant, {}, fast).entries
+    with pytest.raises(
+        RegulatorError, match="spectral radius"
+    ):  # fast enough to be unstable where it is held for half a second
+        state_feedback(plant, {}, replace(gain, gain=fast.gain))
 
 
 def test_a_command_beyond_its_range_is_held_or_refused():
@@ -118,7 +160,8 @@ def test_a_command_beyond_its_range_is_held_or_refused():
 
 
 def test_the_attitude_error_is_that_of_the_linearisation():
-    block = state_feedback(body(), {"q": Rotation.from_rotvec([0.4, 0, 0]).as_quat(scalar_first=True)}, np.eye(3, 6))
+    point = {"q": Rotation.from_rotvec([0.4, 0, 0]).as_quat(scalar_first=True)}
+    block = state_feedback(body(), point, np.eye(3, 6), accept_unstable=True)  # without damping
     view = InterpretView(block)
     for sign in (1, -1):  # q and -q are one attitude
         turned = Rotation.from_rotvec([0.4, 0, 0]) * Rotation.from_rotvec([0, 1e-4, 2e-4])

@@ -79,6 +79,13 @@ def test_composition_is_block_diagonal():
         (lambda: polynomial("a", -1), "the degree is -1"),
         (lambda: harmonic("a", 0.0), "the frequency is 0.0"),
         (lambda: constant("a b"), "the signals are named 'a b'; give identifiers"),
+        (
+            lambda: harmonic("a", 200.0).sampled(T),
+            r"200 rad/s sampled every 0.02 s is at or beyond half .*157.08 rad/s",
+        ),
+        (lambda: harmonic("a", np.pi / T).sampled(T, "euler"), "take a smaller dt"),
+        (lambda: compose([constant("b"), harmonic("a", 200.0)]).sampled(T), "exosystem of 'b', 'a': 200 rad/s"),
+        (lambda: exosystem([[0, 160], [-160, 0]], [[1, 0]], ("a",)).sampled(T), "160 rad/s sampled"),
         (lambda: constant("a").sampled(-1), "dt is -1"),
         (lambda: constant("a").sampled(T, "tustin"), "the method 'tustin' is not known"),
         (lambda: constant("a").sampled(T).sampled(T), "it is discrete already"),

@@ -165,6 +165,21 @@ def test_what_is_refused(parts):
         regulator_feedback(plant, {}, gain, replace(solution, input_map=np.ones((2, 6))))
 
 
+def test_an_exosystem_in_the_wrong_place_is_a_sentence(parts):
+    plant, gain, solution, generator = parts
+    tracks = solution.exosystem
+    with pytest.raises(
+        ModelError, match="spring_regulator: the generator is of type Exosystem; give an observer of the exosystem"
+    ):
+        output_regulator(plant, {}, gain, solution, tracks)
+    with pytest.raises(ModelError, match="the generator is of type Exosystem"):
+        output_regulator(plant, {}, gain, solution, {"position": tracks, "wind": tracks})
+    with pytest.raises(
+        ModelError, match=r"the solution is of type Exosystem; give francis\(linearise\(plant, point\), exosystem\)"
+    ):
+        output_regulator(plant, {}, gain, tracks, generator)
+
+
 def with_estimator(parts):
     plant, gain, solution, generator = parts
     variances = {"position": 1e-2, "speed": 1e-2}

@@ -588,3 +588,71 @@ def test_the_solution_of_least_norm_is_that_of_the_pseudo_inverse():
         z, found = regulator_equations._least_norm(M, right)
         assert found == rank
         np.testing.assert_allclose(z, np.linalg.pinv(M, rcond=1e-12) @ right, rtol=1e-7, atol=1e-9)
+
+
+# -- cost -------------------------------------------------------------------------------------------------------------
+
+
+def counted(monkeypatch, model, generator, solver):
+    """Operations of the decompositions and solves that a solution takes: leading terms of Golub and Van Loan (2013)."""
+    total = 0.0
+
+    def count(module, name, cost):
+        original = getattr(module, name)
+
+        def counting(*given, **options):
+            nonlocal total
+            total += cost(*given, **options)
+            return original(*given, **options)
+
+        patch.setattr(module, name, counting)
+
+    def singular(a, full_matrices=True, compute_uv=True, **_):
+        large, little = max(a.shape), min(a.shape)
+        return 4 * large**2 * little + 22 * little**3 if compute_uv else 4 * large * little**2
+
+    with monkeypatch.context() as patch:
+        count(regulator_equations, "lu_factor", lambda a: 2 / 3 * len(a) ** 3)
+        count(regulator_equations, "lu_solve", lambda factors, b: 2 * len(b) ** 2)
+        count(regulator_equations, "eigvals", lambda a, b, **_: 30 * len(a) ** 3)
+        count(regulator_equations, "schur", lambda a, **_: 25 * len(a) ** 3)
+        count(np.linalg, "svd", singular)
+        assert francis(model, generator, solver=solver).solver == solver
+    assert total > 0
+    return total
+
+
+def pairs(count):
+    """Double integrators, coupled at random: n + m = 3 count, no transmission zero."""
+    rng = np.random.default_rng(0)
+    B = np.kron(np.eye(count) + 0.1 * rng.normal(size=(count, count)) / count, [[0.0], [1.0]])
+    A = np.kron(np.eye(count), np.eye(2, k=1))
+    return linear_model(A, B, np.kron(np.eye(count), [[1.0, 0.0]])).sampled(T, "euler")
+
+
+def shares(monkeypatch, cases, solver):
+    """Operations of r (n + m)^3."""
+    found = []
+    for model, generator in cases:
+        size = len(model.A) + len(model.C)
+        found.append(counted(monkeypatch, model, generator, solver) / (generator.order * size**3))
+    return np.array(found)
+
+
+def test_the_cost_by_columns_grows_no_faster_than_r_times_the_cube_of_n_plus_m(monkeypatch):
+    """Counted, not timed: more chains for one plant, larger plants with more chains, and one longer chain."""
+    more = [(pairs(16), chains(degree, [f"y_{k}" for k in range(16)]).sampled(T, "euler")) for degree in (0, 1, 3, 6)]
+    larger = [(pairs(n), chains(6, [f"y_{k}" for k in range(n)]).sampled(T, "euler")) for n in (4, 8, 16, 32)]
+    longer = [
+        (pairs(2), compose([polynomial("y_0", degree), constant("y_1")]).sampled(T, "euler")) for degree in (3, 7, 15)
+    ]
+    turning = [  # an eigenvalue of its own for every pair of columns: as many factors as there can be
+        (pairs(2), compose([superpose([harmonic("y_0", 0.1 * (k + 1)) for k in range(n)]), constant("y_1")]).sampled(T))
+        for n in (2, 4, 8, 16)
+    ]
+    for cases in (more, larger, longer, turning):
+        found = shares(monkeypatch, cases, "schur")
+        assert np.all(np.diff(found) <= 1e-9 * found[0]), found
+    # what it is compared with: the Kronecker matrix of one part costs r^3 (n + m)^3
+    whole = shares(monkeypatch, longer, "kronecker")
+    assert whole[-1] > 8 * whole[0]

@@ -158,6 +158,21 @@ def test_no_process_noise_is_a_fit_to_all_of_the_past():
     readings = np.random.default_rng(3).normal(size=(50, 1))
     found, _ = run(block, readings)
     np.testing.assert_allclose(found[:, 0], np.cumsum(readings) / (np.arange(1, 51) + 1), rtol=1e-12)
+    assert any("No process noise for x: the gain decays like 1/k" in note for note in block.notes)
+
+
+@pytest.mark.parametrize("together", [False, True])
+def test_without_process_noise_it_is_said_of_whom(together):
+    moving, still = (
+        kalman_exosystem(chains(1, ("x", "y")), process_variance=D, measurement_variance=M, together=together)
+        for D in (1e-6, 0.0)
+    )
+    said = [note for note in still.notes if "No process noise for x, y:" in note]
+    assert len(said) == 1 and not any("No process noise" in note for note in moving.notes)
+    half = {"x": [0.0, 1e-6], "y": [0.0, 0.0]}  # of x the slope has noise, which is enough
+    if not together:
+        notes = kalman_exosystem(chains(1, ("x", "y")), process_variance=half, measurement_variance=M).notes
+        assert any("No process noise for y:" in note for note in notes)
 
 
 def test_a_constant_gain():
