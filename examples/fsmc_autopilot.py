@@ -7,7 +7,7 @@ the yaw are what the attitude law follows; the mixer turns thrust and torques in
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from math import pi
@@ -34,10 +34,11 @@ from plantc.examples.fsmc_quadrotor import (
     tuned,
     vehicle,
 )
-from plantc.reference.fsmc import Run
+from plantc.reference.fsmc import Run, course
 from plantc.simulation import ClosedLoop, closed_loop
 from plantc.symbolic import Block, Plant, cos, sin
 from plantc.symbolic.command_filter import command_filter
+from plantc.symbolic.components import finish
 from plantc.symbolic.composition import Delay, connect, delay, wires
 from plantc.symbolic.fuzzy import FuzzyInput, FuzzyOutput, FuzzySet, FuzzySystem
 from plantc.symbolic.sliding_mode import Switching, fuzzy, sign, sliding_mode, tanh
@@ -234,7 +235,12 @@ def trajectory(*, ramp: bool = False, name: str = "trajectory") -> Block:
     }
     block.entry("step", following={count: count + 1}, outputs=outputs, output_units=said)
     block.sample_time = DT
-    return block
+
+    def calls(rng: Any, steps: int) -> Iterator[tuple[str, dict[str, Any]]]:
+        yield "init", {}
+        yield from (("step", {}) for _ in range(steps))
+
+    return finish(block, {"step": course}, calls)
 
 
 def led(controller: Block, follows: Block, name: str = "led") -> Block:
@@ -248,7 +254,9 @@ def led(controller: Block, follows: Block, name: str = "led") -> Block:
 
 
 @cache
-def loop(law: str = "FSMC", which: str = "A", *, estimated: bool = True, ramp: bool = False) -> ClosedLoop:
+def loop(
+    law: str = "FSMC", which: str = "A", *, estimated: bool = True, ramp: bool = False, read: tuple[str, ...] = READ
+) -> ClosedLoop:
     """Return the whole scheme with a vehicle whose mass and inertias are parameters, as one block that is compiled.
 
     Parameters
@@ -261,11 +269,13 @@ def loop(law: str = "FSMC", which: str = "A", *, estimated: bool = True, ramp: b
         Whether the law is given the estimate; else the true state.
     ramp : bool
         See `trajectory`.
+    read : tuple of str
+        The states that are read.
     """
     values = SETS[which]
     own = ("mass", "inertia_x", "inertia_y", "inertia_z")
-    truth = sampled(vehicle(values=values, tunable=own, disturbed=True, seen=not estimated))
-    pilot = autopilot(law, values) if estimated else control_law(law, values)
+    truth = sampled(vehicle(values=values, tunable=own, disturbed=True, seen=not estimated, read=read))
+    pilot = autopilot(law, values, read=read) if estimated else control_law(law, values)
     controller = led(pilot, trajectory(ramp=ramp))
     readings: dict[str, str] = {}
     if not estimated:
@@ -290,14 +300,15 @@ class Flight:
     ----------
     steps : int
         How many, the first at t = 0.
-    law, which, estimated, ramp
+    law, which, estimated, ramp, read
         See `loop`.
     tuning : str
         Of the filter.
     X, estimate : tuple of 12 float
         State and estimate at the start.
     d, v : array (steps, 6), optional
-        Accelerations, and noise of the reading one step later; see `reference.fsmc.disturbances`.
+        Accelerations, and noise of the reading one step later; see `reference.fsmc.disturbances`. What is not read has no
+        noise.
     params : dict
         Other parameters of the loop, such as ``plant.mass``.
     """
@@ -312,12 +323,18 @@ class Flight:
     estimate: tuple[float, ...] = (0.0,) * 12
     d: Array | None = None
     v: Array | None = None
+    read: tuple[str, ...] = READ
     params: Mapping[str, Any] | None = None
+
+    def loop(self) -> ClosedLoop:
+        """Return the loop that is flown; the same one for all flights that differ in numbers only."""
+        return loop(self.law, self.which, estimated=self.estimated, ramp=self.ramp, read=self.read)
 
 
 @cache
-def _batch(law: str, which: str, estimated: bool, ramp: bool) -> Batch:
-    return Batch(loop(law, which, estimated=estimated, ramp=ramp).text)
+def compiled(ring: ClosedLoop) -> Batch:
+    """Return the C of a loop, compiled once."""
+    return Batch(ring.text)
 
 
 @cache
@@ -384,7 +401,9 @@ def settings(flight: Flight) -> dict[str, Any]:
     answer, _ = first_step(flight)
     answer |= {f"plant.{state}_0": value for state, value in zip(STATES, flight.X, strict=True)}
     if flight.estimated:
-        answer |= {f"controller.pilot.estimator.{key}": value for key, value in tuned(flight.tuning).items()}
+        answer |= {
+            f"controller.pilot.estimator.{key}": value for key, value in tuned(flight.tuning, flight.read).items()
+        }
         for state, value in zip(STATES, flight.estimate, strict=True):
             answer[f"controller.pilot.estimator.{state}_0"] = value
     places = {
@@ -427,8 +446,8 @@ def fly(flight: Flight) -> Run:
     Run
         At t = k DT, k = 0 .. steps - 1.
     """
-    ring = loop(flight.law, flight.which, estimated=flight.estimated, ramp=flight.ramp)
-    batch = _batch(flight.law, flight.which, flight.estimated, flight.ramp)
+    ring = flight.loop()
+    batch = compiled(ring)
     _, first = first_step(flight)
     inputs = batch.inputs(flight.steps - 1)
     for name, value in ring.held.items():
@@ -436,7 +455,7 @@ def fly(flight: Flight) -> Run:
     if flight.d is not None:
         inputs["plant_angular_disturbance"], inputs["plant_linear_disturbance"] = flight.d[:-1, :3], flight.d[:-1, 3:]
     if flight.v is not None:
-        inputs["plant_pose_noise"] = flight.v[:-1]
+        inputs["plant_pose_noise"] = flight.v[:-1, [READ.index(state) for state in flight.read]]
     answer = batch.run(inputs, batch.params(settings(flight)))
 
     def column(record: Any, path: str) -> Any:

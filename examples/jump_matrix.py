@@ -747,7 +747,7 @@ def _tracks(found: Found, panels: Mapping[str, Mapping[str, Case]], height: floa
             _tidy(axes, title)
         for axes in grid[-1]:
             axes.set_xlabel("time [s]")
-        figure.legend(loc="outside upper left", ncols=4, handlelength=1.2)
+        figure.legend(loc="outside upper left", ncols=5, handlelength=1.2)
         return figure
 
 
@@ -798,12 +798,12 @@ def _truth_figure(other: OtherTruth) -> Figure:
         left.set_xlabel("time [s]")
         left.set_ylim(-4, 4)
         for colour, ((name, value), own) in zip(SERIES, other.errors.items(), strict=False):
-            right.plot(other.steps, own, ".-", color=colour, linewidth=0.9, label=f"{name}, {value:g}")
+            right.plot(1e3 * np.array(other.steps), own, ".-", color=colour, linewidth=0.9, label=f"{name}, {value:g}")
         right.set_xscale("log")
         right.set_yscale("log")
-        right.set_xticks(other.steps, [f"{step:g}" for step in other.steps])
+        right.set_xticks([1e3 * step for step in other.steps], [f"{1e3 * step:g}" for step in other.steps])
         right.minorticks_off()
-        right.set_xlabel("T [s]")
+        right.set_xlabel("T [ms]")
         _tidy(left, "hard spring, truth by DOP853")
         _tidy(right, "|error of x1| of the jumps after 10 s")
         right.legend(fontsize=7)
@@ -858,7 +858,7 @@ def _pictures(found: Found, other: OtherTruth) -> list[Picture]:
         Picture("truth", "Fig. 12: the truth by another integrator, and the order of the jump simulation",
                 "Left: the estimator follows a truth that was not made by jumps. Right: the error of the jumps halves with T.",
                 _truth_figure(other)),
-        Picture("normality", "Figs. 23 and 24: is the error normal?",
+        Picture("normality", "Figs. 23 and 24: how normal the error is",
                 "With P_0 = 0 the quantiles lie on the line; with P_0 = I the start makes tails.", _normal_figure(found)),
         Picture("control", "Figs. 28 to 35: control by the estimated state",
                 "Each estimate is of the loop that it controls; x1 and the readings are those with Phi_OL. Last, x1 of the loop "
@@ -936,7 +936,7 @@ def study(
         "Noise": "sigma_w^2 is the variance of the value held over a step; the same random numbers in every case",
         "Diverged": "the loop refused a call, or the mean square error is beyond 1000; counted as infinite",
         "Extended Kalman filter": "Runge-Kutta of fourth order, its Jacobian, w held",
-        "Numbers": "medians over the runs, with their 10 and 90 % quantiles",
+        "Numbers": "medians over the runs, with their 10 and 90 % quantiles; with fewer than 40 runs a verdict may turn by chance",
     }
     result.comparisons = comparisons(found, other)
     result.tables = _tables(found, other)

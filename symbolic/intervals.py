@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import casadi as ca
+import numpy as np
 
 from .expressions import Step, tape
 
@@ -94,13 +96,10 @@ def _bounded(step: Step, given: list[Interval]) -> Interval:
         case "fmax" | "maximum":
             return max(a[0], b[0]), max(a[1], b[1])
         case "saturation":
-            return min(max(a[0], b[0]), given[2][0]), min(max(a[1], b[1]), given[2][1])
+            lower, upper = given[1:]
+            return min(max(a[0], lower[0]), upper[0]), min(max(a[1], lower[1]), upper[1])
         case "look_up" | "look_up_slope":
-            half = len(given) // 2
-            at, of = ([item[0] for item in side] for side in (given[1 : half + 1], given[half + 1 :]))
-            slopes = [(of[k + 1] - of[k]) / (at[k + 1] - at[k]) for k in range(half - 1)]
-            found = of if step.operation == "look_up" else [0.0, *slopes]
-            return min(found), max(found)
+            return _looked_up(step.operation, a, [low for low, _ in given[1:]])
         case "if_else_zero":
             return min(b[0], 0.0), max(b[1], 0.0)
         case operation if operation in _RISING:
@@ -113,6 +112,17 @@ def _bounded(step: Step, given: list[Interval]) -> Interval:
             return 0.0, 1.0
         case operation:
             return _WITHIN.get(operation, ANYWHERE)
+
+
+def _looked_up(operation: str, x: Interval, numbers: list[float]) -> Interval:
+    """Return bounds of a table, or of its slope, over an interval; the numbers are its breakpoints and values."""
+    at, of = np.reshape(numbers, (2, -1))
+    if operation == "look_up":
+        met: list[Any] = [*np.interp(x, at, of), *of[(at >= x[0]) & (at <= x[1])]]
+    else:  # a slope that is met, or a mean of two
+        slopes = np.concatenate([[0.0], np.diff(of) / np.diff(at), [0.0]])
+        met = [*slopes[np.searchsorted(at, x[0], side="left") : np.searchsorted(at, x[1], side="right") + 1]]
+    return float(min(met)), float(max(met))
 
 
 def _product(a: Interval, b: Interval) -> Interval:

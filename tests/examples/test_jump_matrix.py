@@ -31,7 +31,7 @@ from plantc.examples.jump_matrix_runs import (
     system_of,
 )
 from plantc.reference.jump_matrix import JumpEstimator, JumpSystem
-from plantc.simulation import stream, study_page
+from plantc.simulation import channels, replay, stream, study_page
 from scipy.linalg import expm
 
 SEED, RUNS = 2018, 40
@@ -266,6 +266,21 @@ def test_linear_runs_have_the_expected_error():
         mse = runs_of(case, 1600, SEED).mse
         assert np.std(mse) / 40 < 0.022 * value
         assert np.mean(mse) == pytest.approx(value, rel=0.04), case
+
+
+@pytest.mark.parametrize(
+    "case", [TABLES[2].case(4.0, 2), TABLES[5].case(10.0, 1), study.control_case("controlled_spring", BY_OPEN)]
+)
+def test_a_run_is_that_of_the_monte_carlo(case):
+    std = {"w": np.sqrt(case.noise), "z_noise": np.sqrt(case.reading)}
+    loop = loops.loop_of(*case.loop)
+    if case.approach == ONLINE:
+        std |= {item.name: 0.0 for item in channels(loop.noises) if item.name not in std}
+    again = replay(loop, 3, steps=1000, seed=SEED, std=std, params=loops.settings(case))
+    own = history(case, 3, SEED)
+    np.testing.assert_array_equal(again.truth, own.truth)
+    np.testing.assert_array_equal(again.estimate, own.estimate)
+    assert not np.array_equal(own.estimate, history(case, 4, SEED).estimate)
 
 
 # -- what is counted --------------------------------------------------------------------------------------------------

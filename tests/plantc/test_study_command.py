@@ -57,7 +57,7 @@ def test_json_is_alone_on_standard_output(asked, plantc, tmp_path):
     assert answer["status"] == 0
     assert answer["summary"] == said.summary
     assert asked == [(7, 2018, None)]
-    assert answer["results"]["conditions"] == {"Runs": 20}
+    assert answer["results"]["conditions"] == {"Runs": 7}
     assert answer["results"]["tables"]["main"]["rows"] == [[None]]
     assert answer["verdicts"]["does not reproduce"] == 1
 
