@@ -96,6 +96,28 @@ class JumpModel:
             truth._books.sensors.append(Sensor(signal, ca.SX(state.symbol), symbol, None, False, None, signal.doc))
         return truth
 
+    @property
+    def one_step(self) -> Plant:
+        """The same map for the plant's own states: s+ = Phi_ss s + Phi_sn phi(s) + Gam_s u + Psi_s w (sec. 8).
+
+        From a state whose nonlinearities fit it moves as `plant` does, but that an input or noise inside a nonlinearity is that
+        of the start of the step. Its extended Kalman filter linearises phi at the corrected estimate, not at the projected one.
+        """
+        plant = copy.copy(self.plant)
+        names = {state.signal.name for state in self._clamp_states()}
+        kept, start = [], 0
+        for state in self.plant.states:
+            if state.signal.name not in names:
+                at = slice(start, start + state.signal.size)
+                kept.append(replace(state, at=at, error_at=at))
+                start = at.stop
+        plant._books = replace(self.plant._books, states=kept)
+        plant.independent = None
+        following = ca.substitute(self.projection, self.plant.x, self.J)
+        places = {state.signal.name: state.at for state in self.plant.states}
+        plant._dynamics = {state.signal.name: following[places[state.signal.name]] for state in kept}
+        return plant
+
     def point(self, values: Mapping[Any, Any] | None = None) -> dict[str, Any]:
         """Return a point of the discrete plant: state or input (or its name) -> value, nonlinearities at their values there.
 
