@@ -14,7 +14,7 @@ from plantc.symbolic.program import unpack_symmetric
 from plantc.symbolic.simulated import simulated_plant
 from scipy.integrate import solve_ivp
 
-from plantc import NativeView, cross_check, export, extended_kalman_filter
+from plantc import NativeView, cross_check, emit, export, extended_kalman_filter
 
 
 def pendulum(**changed):
@@ -597,3 +597,14 @@ def test_the_jacobian_estimator_is_an_extended_kalman_filter():
     by_jump("predict")
     gain = by_jump.P()[0, 0] / (by_jump.P()[0, 0] + 4.0)
     np.testing.assert_allclose(small, model.Phi[:2, 2] * 3 * 1.5 * (0.1 * gain) ** 2, rtol=0.02)
+
+
+@pytest.mark.slow
+def test_an_estimator_without_any_floor_is_exported(tmp_path):
+    """A variance of zero is no fault; that there is nothing below it to be raised is no statement that nothing reaches."""
+    system = jump_systems.spring()
+    block = jump_matrix_estimator(system.model, initial_variance=0.0, around=system.start)
+    done = export(block, tmp_path, precision="float", steps=40)
+    assert "floor_i" not in done.files["src/spring_jump_estimator.c"]
+    floored = jump_matrix_estimator(system.model, initial_variance=1.0, around=system.start)
+    assert "floor_i" in emit(floored, "float").source
