@@ -11,7 +11,11 @@ from .models import UsageError
 if TYPE_CHECKING:
     from .simulation import StudyResult
 
-STUDIES = {"meda2018": "plantc.examples.meda2018", "regulation2023": "plantc.examples.regulation2023"}
+STUDIES = {
+    "meda2018": "plantc.examples.meda2018",
+    "regulation2023": "plantc.examples.regulation2023",
+    "fsmc2018": "plantc.examples.fsmc2018",
+}
 """Name -> module; its ``study(runs, seed, *, on, progress)`` returns a `plantc.simulation.StudyResult` of that name."""
 
 

@@ -284,7 +284,7 @@ def test_scenario_d():
 
 def test_every_signal_of_scenario_d_is_that_of_the_reference():
     told, run = simulate(Scenario(steps=1000)), scenario_d()
-    for name in ("X", "estimate", "reference", "u", "applied", "w", "Om", "s"):
+    for name in ("X", "estimate", "reference", "u", "applied", "w", "Om", "s", "switching", "deviation"):
         np.testing.assert_allclose(getattr(run, name)[:1000], getattr(told, name), rtol=0, atol=1e-9, err_msg=name)
 
 
@@ -357,7 +357,7 @@ def test_the_filters_covariance_stays_positive():
     d, v = disturbances(2000, onset=0.0, seed=3)
     for tuning in fsmc.TUNINGS:
         flight = Flight(steps=2000, tuning=tuning, d=d, v=v)
-        batch = fsmc_autopilot._batch("FSMC", "A", True, False)
+        batch = fsmc_autopilot._batch(flight.loop())
         inputs = batch.inputs(1999)
         for name, value in fsmc_autopilot.loop().held.items():
             inputs[name] = value
