@@ -140,6 +140,35 @@ def regulators() -> dict[str, Any]:
     return answer
 
 
+def one_filter() -> dict[str, int]:
+    """Return the most instructions of each entry of one filter of 7 states, over 60 steps: where those of the regulator go."""
+    from plantc.codegen import TargetView
+    from plantc.codegen.emulator import Call
+    from plantc.codegen.targets import TARGETS
+    from plantc.symbolic.signal_generators import kalman_exosystem
+
+    from plantc import NativeView
+
+    chain = polynomial("reading", 6).sampled(DT, "euler")
+    block = kalman_exosystem(chain, name="generator", process_variance=1e-12, measurement_variance=0.01)
+    view, native, rng = (
+        TargetView(block, "float", TARGETS["cortex-m4"]),
+        NativeView(block, "float"),
+        np.random.default_rng(0),
+    )
+    params = native.params()
+    memory, calls = native.init(params), []
+    for _ in range(60):
+        reading = {"reading": 0.1 * rng.normal()}
+        for entry, given in (
+            ("predict", {}), ("update_reading", reading), ("step", {**reading, "has_reading": True}),
+        ):  # fmt: skip
+            calls.append(Call(entry, native.inputs(entry, given), memory, params))
+        memory = native.call("step", memory, native.inputs("step", {**reading, "has_reading": True}), params).memory
+    view.calls(calls)
+    return {entry: view.most[entry].instructions for entry in ("predict", "update_reading", "step")}
+
+
 def text_of(view: Any) -> int:
     """Return the bytes of text of the library that a view runs, with the functions it calls."""
 
@@ -161,6 +190,7 @@ def main() -> None:
     found = measure()
     if arguments.target:
         found["regulators"] = regulators()
+        found["one filter"] = one_filter()
     if arguments.json:
         print(json.dumps(found))
         return
@@ -176,6 +206,8 @@ def main() -> None:
         print(
             f"{kind}: {cost['states']} states, {cost['text']} bytes of text, at most {cost['instructions']} instructions a step"
         )
+    for entry, instructions in found.get("one filter", {}).items():
+        print(f"one filter of 7 states, {entry}: at most {instructions} instructions")
 
 
 if __name__ == "__main__":

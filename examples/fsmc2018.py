@@ -218,7 +218,9 @@ def _of_stability(found: Found, runs: int, seed: int) -> list[Comparison]:
     assert quiet is not None
     tail = np.abs(quiet.X[[3000, 4000], place("z")] - 5)
     times = {axis: reached(found, axis) for axis in ("yaw", "z")}
-    settled = np.mean([found[case].tracking[9.0, 10.0][1::2] for case in streams("FSMC", runs, seed)], axis=0)
+    own = [found[case] for case in streams("FSMC", runs, seed)]
+    settled = np.mean([item.tracking[9.0, 10.0][1::2] for item in own], axis=0)
+    floor = np.mean([item.estimation[9.0, 10.0][1::2] for item in own], axis=0)
     predicted = PUSH / (RATE["z"] + 0.8 * GAIN["z"] / WIDTH["z"]) / SLOPE["z"]
     return [
         compared(
@@ -257,9 +259,9 @@ def _of_stability(found: Found, runs: int, seed: int) -> list[Comparison]:
         compared(
             "Fig. 10: the velocity tracking errors tend to zero",
             f"root mean square from 9 s on: {_span(settled)} m/s or rad/s",
-            float(np.max(settled)) < SEEN,
-            settled,
-            "By exponentials, to a floor that the error of the estimate keeps up.",
+            float(np.max(settled / floor)) < 2,
+            [*settled, *floor],
+            "By exponentials, to what the estimate is off by (within a factor 2 counts), since the law sees nothing else.",
         ),
     ]
 
@@ -399,7 +401,7 @@ def _of_filter(found: Found, runs: int, seed: int) -> list[Comparison]:
     left = {tuning: remaining(found, tuning) for tuning in TUNINGS}
     slow, fast = poles("printed")[2:]
     six, four = ([found[case] for case in streams("FSMC", runs, seed, read=read)] for read in (Case().read, FOUR))
-    tracking = [max(_tracked(item, axis)[0] for item in four) / BANDS[axis] for axis in BANDS]
+    tracking = [float(np.mean([_tracked(item, axis)[0] for item in four])) / BANDS[axis] for axis in BANDS]
     noise = np.mean([item.chattering[LATE] for item in four], axis=0) / np.mean(
         [item.chattering[LATE] for item in six], axis=0
     )
@@ -423,7 +425,7 @@ def _of_filter(found: Found, runs: int, seed: int) -> list[Comparison]:
         ),
         compared(
             "Section 5: x, y, z and psi are measured (section 3, and H: six outputs)",
-            f"with four, largest errors over the bands of six: {_span(tracking)}; chattering of u1 to u4 times {_span(noise)}",
+            f"with four, errors over the bands of six: {_span(tracking)}; chattering of u1 to u4 times {_span(noise)}",
             max(tracking) < 1,
             [*tracking, *noise],
             "Roll and pitch are seen through x and y, by a model that is exact here.",
@@ -543,7 +545,6 @@ def _of_jacobian(found: Found, seed: int) -> list[Comparison]:
         jacobian.tracking[LATE] / plain.tracking[LATE], jacobian.estimation[LATE] / plain.estimation[LATE],
         jacobian.chattering[LATE] / plain.chattering[LATE],
     ]) - 1  # fmt: skip
-    change = change[np.isfinite(change)]
     return [
         compared(
             "Section 6: the Jacobian F",
@@ -590,10 +591,10 @@ def _summary(found: Found, runs: int, seed: int, made: Sequence[Comparison]) -> 
     robust = _tracked(found[heavy(1.05, "robust", "FSMC", seed)], "z")[0]
     wrongs = sum(item.verdict == "shown wrong" for item in made)
     return (
-        f"The scheme flies. The fuzzy law chatters {_span(fuzzy / smc)} times as much as the conventional one, and {_span(fuzzy / tanh)} "
-        f"times as much as a plain tanh. With 5 % more mass z is off by {heavier_by:.2g} m with the printed filter, whose velocities "
-        f"are those of its model, and by {robust:.2g} m with one that is tuned. {wrongs} statements of the paper cannot be so, whoever "
-        "computes them."
+        f"The scheme flies. The fuzzy law chatters {_span(fuzzy / smc)} times as much as the conventional one, and "
+        f"{_span(fuzzy / tanh)} times as much as a plain tanh. With 5 % more mass z is off by {heavier_by:.2g} m with the printed "
+        f"filter, whose velocities are those of its model, and by {robust:.2g} m with one that is tuned. {wrongs} statements of "
+        "the paper cannot be so, whoever computes them."
     )
 
 

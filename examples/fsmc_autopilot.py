@@ -7,7 +7,7 @@ the yaw are what the attitude law follows; the mixer turns thrust and torques in
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from math import pi
@@ -34,10 +34,11 @@ from plantc.examples.fsmc_quadrotor import (
     tuned,
     vehicle,
 )
-from plantc.reference.fsmc import Run
+from plantc.reference.fsmc import Run, course
 from plantc.simulation import ClosedLoop, closed_loop
 from plantc.symbolic import Block, Plant, cos, sin
 from plantc.symbolic.command_filter import command_filter
+from plantc.symbolic.components import finish
 from plantc.symbolic.composition import Delay, connect, delay, wires
 from plantc.symbolic.fuzzy import FuzzyInput, FuzzyOutput, FuzzySet, FuzzySystem
 from plantc.symbolic.sliding_mode import Switching, fuzzy, sign, sliding_mode, tanh
@@ -234,7 +235,12 @@ def trajectory(*, ramp: bool = False, name: str = "trajectory") -> Block:
     }
     block.entry("step", following={count: count + 1}, outputs=outputs, output_units=said)
     block.sample_time = DT
-    return block
+
+    def calls(rng: Any, steps: int) -> Iterator[tuple[str, dict[str, Any]]]:
+        yield "init", {}
+        yield from (("step", {}) for _ in range(steps))
+
+    return finish(block, {"step": course}, calls)
 
 
 def led(controller: Block, follows: Block, name: str = "led") -> Block:
@@ -301,7 +307,7 @@ class Flight:
     ----------
     steps : int
         How many, the first at t = 0.
-    law, which, estimated, ramp
+    law, which, estimated, ramp, read
         See `loop`.
     tuning : str
         Of the filter.
@@ -336,7 +342,7 @@ class Flight:
     w: Array | None = None
 
     def loop(self) -> ClosedLoop:
-        """Return the loop that is compiled for it."""
+        """Return the loop that is flown; the same one for all flights that differ in numbers only."""
         return loop(
             self.law, self.which, estimated=self.estimated, ramp=self.ramp, believed=self.believed, read=self.read,
             shaken=self.w is not None,
@@ -344,7 +350,8 @@ class Flight:
 
 
 @cache
-def _batch(ring: ClosedLoop) -> Batch:
+def compiled(ring: ClosedLoop) -> Batch:
+    """Return the C of a loop, compiled once."""
     return Batch(ring.text)
 
 
@@ -474,7 +481,7 @@ def fly(flight: Flight) -> Run:
         At t = k DT, k = 0 .. steps - 1.
     """
     ring = flight.loop()
-    batch = _batch(ring)
+    batch = compiled(ring)
     _, first = first_step(flight)
     answer = batch.run(_inputs(flight, batch, ring.held), batch.params(settings(flight)))
 

@@ -10,10 +10,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import casadi as ca
-from plantc.symbolic import Block, Plant, fmax, fmin
+from plantc.symbolic import Block, Plant
 from plantc.symbolic.composition import connect, wires
 from plantc.symbolic.controllers import state_feedback
 from plantc.symbolic.jump_matrix import JumpModel, jump_matrix_estimator, jump_model
+from plantc.symbolic.piecewise import saturated
 
 T = 0.01
 HELD = T
@@ -48,7 +49,7 @@ class JumpSystem:
 
 
 def _clipped(value: ca.SX) -> ca.SX:
-    return fmin(fmax(value, -1.0), 1.0)
+    return saturated(value, -1.0, 1.0)
 
 
 # -- chapter III: without control -------------------------------------------------------------------------------------

@@ -1022,7 +1022,7 @@ def _summary(found: Mapping[Case, Run], seeds: Sequence[int]) -> str:
     )
 
 
-def study(runs: int = 10, seed: int = 2018, *, on: str | None = None, progress: Progress | None = None) -> StudyResult:
+def study(runs: int = 20, seed: int = 2018, *, on: str | None = None, progress: Progress | None = None) -> StudyResult:
     """Do the whole study.
 
     Parameters

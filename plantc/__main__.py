@@ -561,7 +561,9 @@ def audit_text(found: AuditResult) -> list[str]:
     f"NAME: {', '.join(studies.STUDIES)}.",
 )
 @click.argument("name")
-@click.option("--runs", type=click.IntRange(1, 100_000), default=20, show_default=True, help="Runs of each case.")
+@click.option(
+    "--runs", type=click.IntRange(1, 100_000), default=None, help="Runs of each case.  [default: what the study says]"
+)
 @click.option(
     "--seed", type=click.IntRange(0, 2**64 - 1), default=2018, show_default=True, help="Key of the random streams."
 )
@@ -572,7 +574,7 @@ def audit_text(found: AuditResult) -> list[str]:
 @click.option("--force", is_flag=True, help="Write over files of an earlier run even if they were changed since.")
 @_common
 def study_command(
-    name: str, runs: int, seed: int, out: Path, on: str | None, force: bool, as_json: bool, debug: bool
+    name: str, runs: int | None, seed: int, out: Path, on: str | None, force: bool, as_json: bool, debug: bool
 ) -> None:
     """Do a published result again."""
     session = Session(as_json, debug)
@@ -589,7 +591,8 @@ def study_command(
                 display.update(task, description=f"{name}: {what}", completed=done, total=total)
 
             try:
-                found = made(runs, seed, on=on, progress=report)
+                asked = {} if runs is None else {"runs": runs}
+                found = made(seed=seed, on=on, progress=report, **asked)
             except (ClusterError, ResultError) as error:
                 raise UsageError(str(error)) from None
         files = write_study(found, out, force=force)

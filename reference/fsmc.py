@@ -16,6 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .controllers import Fields
+
 Array = NDArray[np.float64]
 Law = Callable[[float], float]
 
@@ -442,6 +444,19 @@ def trajectory(t: float, ramp: bool = False) -> Array:
     return np.array([x, -w * y, -(w**2) * x, y, w * x, -(w**2) * y, *z, math.pi / 4, 0.0, 0.0])
 
 
+def course(memory: Fields, inputs: Fields, params: Fields) -> tuple[bool, Fields, Fields]:
+    """Return the circle, the altitude and the yaw that are followed, by parameters; see `controllers.Formula`."""
+    real = memory["count"].dtype.type
+    t, w, r = real(DT) * memory["count"], params["frequency"], params["radius"]
+    turn = r * np.exp(1j * w * t)  # x + i y; each derivative turns it by a quarter and scales it by w
+    at, rate, acceleration = turn, 1j * w * turn, -(w**2) * turn
+    outputs: Fields = {"x": np.real(at), "rate_x": np.real(rate), "acceleration_x": np.real(acceleration)}
+    outputs |= {"y": np.imag(at), "rate_y": np.imag(rate), "acceleration_y": np.imag(acceleration)}
+    outputs |= {"z": params["altitude"] + params["climb"] * t, "rate_z": params["climb"], "acceleration_z": 0 * t}
+    outputs |= {"yaw": params["yaw"], "rate_yaw": 0 * t, "acceleration_yaw": 0 * t}
+    return False, {"count": memory["count"] + 1}, outputs
+
+
 def disturbances(
     steps: int,
     *,
@@ -496,8 +511,8 @@ class Scenario:
         What filter and law are made for; what flies.
     X, estimate : tuple of 12 float
         State and estimate at the start.
-    d, v : array (steps, 6), optional
-        See `disturbances`; default none.
+    d, v : array (steps, 6), (steps, rows), optional
+        See `disturbances`; default none. Of v the first columns are those of `rows`.
     ramp, literal, divided : bool
         See `trajectory` and `Controller`.
     printed_jacobian : bool

@@ -34,8 +34,9 @@ def area_and_moment(corners: Corners, height: Any) -> tuple[Any, Any]:
     return area, moment
 
 
-def midpoints(low: float, high: float, points: int) -> Array:
+def midpoints(ends: tuple[float, float], points: int) -> Array:
     """Return the middles of so many equal pieces, shape (points,)."""
+    low, high = ends
     return low + (np.arange(points) + 0.5) * ((high - low) / points)
 
 
@@ -103,7 +104,7 @@ class Fuzzy:
         return area_and_moment(corners, strength)
 
     def _of_union(self, said: Sequence[tuple[Any, Corners]], sets: Any) -> Array:
-        y = midpoints(min(item[0] for item in sets), max(item[3] for item in sets), self.points)
+        y = midpoints((min(item[0] for item in sets), max(item[3] for item in sets)), self.points)
         union: Any = 0.0
         for strength, corners in said:
             own, degree = np.asarray(strength)[..., None], membership(y, corners)

@@ -170,8 +170,11 @@ def online_gain(clamped: tuple[int, ...], before: Array, after: Array, projected
     return a
 
 
-class ErrorStep:
-    """What the covariance of the estimator is propagated by, for a plant given by its rates and its jump.
+class JumpMap:
+    """The step x+ = J(Phi x + Gam u + Psi w) of a plant that is given by its rates and its jump.
+
+    Phi, Gam and Psi are made here, of the derivatives of the rates by the complex step: the independent form of what
+    `plantc.symbolic.jump_matrix` makes.
 
     Parameters
     ----------
@@ -185,6 +188,46 @@ class ErrorStep:
         Any parameters: A, B and L do not depend on them.
     T : float
         Seconds per sample.
+    """
+
+    def __init__(self, rates: Lowered, jump: Lowered, sizes: tuple[int, int, int], p: Array, T: float):
+        n, m, q = sizes
+        x, u, w = np.zeros(n), np.zeros(m), np.zeros(q)
+        A = complex_step(lambda value: evaluated(rates, value, u, p, w), x)
+        B = complex_step(lambda value: evaluated(rates, x, value, p, w), u)
+        L = complex_step(lambda value: evaluated(rates, x, u, p, value), w)
+        self.Phi, driven, self.Psi = discrete_parts(A, np.hstack([B, np.eye(n)]), L, T)
+        self.Gam, self.held = driven[:, :m], driven[:, m:]
+        self.rates, self.jump, self.sizes = rates, jump, sizes
+
+    def projected(self, x: Array, u: Array, p: Array, w: Array) -> Array:
+        """Return Phi x + Gam u + Psi w, and what a constant in the rates adds; each argument (size,), or all (size, k)."""
+        parts = [self.Phi, self.Gam, self.Psi, self.held]
+        Phi, Gam, Psi, held = (part.astype(np.real(x).dtype) for part in parts)
+        constant = evaluated(self.rates, np.zeros_like(x), np.zeros_like(u), p, np.zeros_like(w))
+        return np.asarray(Phi @ x + Gam @ u + Psi @ w + held @ constant)
+
+    def __call__(self, x: Array, u: Array, p: Array, w: Array) -> tuple[Array, ...]:
+        """Return the state after the step, as a tuple of one: a model's `dynamics`."""
+        batch = max((item.shape[1] for item in (x, u, p, w) if item.ndim == 2), default=None)
+        if batch is not None:
+            columns = [item if item.ndim == 2 else item[:, None] for item in (x, u, p, w)]
+            x, u, p, w = (np.broadcast_to(item, (len(item), batch)) for item in columns)
+        return (evaluated(self.jump, self.projected(x, u, p, w), u, p, w),)
+
+    def driven(self, places: list[int]) -> Lowered:
+        """Return the step with the noises among the inputs, behind those of the plant: w is at `places` of these."""
+        m = self.sizes[1]
+        return lambda x, u, p, w: self(x, u[:m], p, u[m:][places])
+
+
+class ErrorStep:
+    """What the covariance of the estimator is propagated by, P- = F P F' + G Q G', F = a Phi, G = a Psi + dJ/dw.
+
+    Parameters
+    ----------
+    step : JumpMap
+        The plant.
     clamped : tuple of int
         Where the nonlinearities are in x.
     choice : {"jacobian", "identity", "online"}
@@ -197,46 +240,32 @@ class ErrorStep:
 
     def __init__(
         self,
-        rates: Lowered,
-        jump: Lowered,
-        sizes: tuple[int, int, int],
-        p: Array,
-        T: float,
+        step: JumpMap,
         clamped: tuple[int, ...],
         choice: Choice,
         transition: Array | None = None,
         carried: tuple[str, ...] = (),
     ):
-        n, m, q = sizes
-        x, u, w = np.zeros(n), np.zeros(m), np.zeros(q)
-        A = complex_step(lambda value: evaluated(rates, value, u, p, w), x)
-        B = complex_step(lambda value: evaluated(rates, x, value, p, w), u)
-        L = complex_step(lambda value: evaluated(rates, x, u, p, value), w)
-        rest = np.eye(n)
-        self.Phi, driven, self.Psi = discrete_parts(A, np.hstack([B, rest]), L, T)
-        self.Gam, self.held = driven[:, :m], driven[:, m:]
-        self.rates, self.jump, self.sizes, self.clamped = rates, jump, sizes, clamped
-        self.choice, self.carried = choice, carried
-        self.F = self.Phi if transition is None else transition
+        self.step, self.clamped, self.choice, self.carried = step, clamped, choice, carried
+        self.F = step.Phi if transition is None else transition
 
     def __call__(
         self, x: Array, u: Array, p: Array, memory: Mapping[str, Any], inputs: Mapping[str, Any]
     ) -> tuple[Array, Array]:
-        """Return (F, G) with P- = F P F' + G Q G': F = a Phi, G = a Psi + dJ/dw."""
-        n, m, q = self.sizes
-        kind = x.dtype
+        """Return (F, G) at an estimate."""
+        step, kind = self.step, x.dtype
+        n, _, q = step.sizes
         w = np.zeros(q, dtype=kind)
-        constant = evaluated(self.rates, np.zeros(n, dtype=kind), np.zeros(m, dtype=kind), p, w)
-        projected = (self.Phi @ x + self.Gam @ u + self.held @ constant).astype(kind)
+        projected = step.projected(x, u, p, w)
         if self.choice == "jacobian":
-            a = complex_step(lambda value: evaluated(self.jump, value, u, p, w), projected)
+            a = complex_step(lambda value: evaluated(step.jump, value, u, p, w), projected)
         elif self.choice == "online":
             before, after = np.zeros(n, dtype=kind), np.zeros(n, dtype=kind)
             places = list(self.clamped)
-            before[places] = np.concatenate([np.ravel(memory[name]) for name in self.carried])
-            after[places] = np.concatenate([np.ravel(inputs[name]) for name in self.carried])
-            a = online_gain(self.clamped, before, after, projected, evaluated(self.jump, projected, u, p, w))
+            before[places] = np.concatenate([np.zeros(0), *[np.ravel(memory[name]) for name in self.carried]])
+            after[places] = np.concatenate([np.zeros(0), *[np.ravel(inputs[name]) for name in self.carried]])
+            a = online_gain(self.clamped, before, after, projected, evaluated(step.jump, projected, u, p, w))
         else:
             a = np.eye(n, dtype=kind)
-        inside = complex_step(lambda value: evaluated(self.jump, projected, u, p, value), w)
-        return (a @ self.F).astype(kind), (a @ self.Psi + inside).astype(kind)
+        inside = complex_step(lambda value: evaluated(step.jump, projected, u, p, value), w)
+        return (a @ self.F).astype(kind), (a @ step.Psi + inside).astype(kind)

@@ -269,6 +269,8 @@ class Derivation:
         if rest:
             rates = ca.substitute(rates, ca.vertcat(*rest), ca.DM.zeros(ca.vertcat(*rest).numel()))
         dynamics = numpy_callable(ca.Function("dynamics", [x, u, p, process], [ca.densify(rates)]))
+        if plant.independent is not None:
+            dynamics = plant.independent
         sensors = [self._sensor_model(sensor, inputs) for sensor, inputs in readings]
         return textbook.Model(
             states=tuple(

@@ -400,9 +400,12 @@ Array = NDArray[Any]
 
 
 def _lowered(steps: Sequence[Step], outputs: Sequence[Sequence[int]], name: str) -> Callable[..., Any]:
-    """Return a function of arrays that gives tuples of steps."""
+    """Return a function of arrays that gives tuples of steps, and computes only what these need."""
     lines = ["def lowered(*a):"]
+    needed = _needed(steps, [item for output in outputs for item in output])
     for index, step in enumerate(steps):
+        if index not in needed:
+            continue
         if step.operation == "input":
             text = f"a[{step.place[0]}][{step.place[1]}]"
         elif step.operation == "const":
@@ -532,13 +535,19 @@ class Pieces:
 
 
 def _inputs_of(steps: Sequence[Step], root: int) -> tuple[tuple[int, int], ...]:
-    waiting, seen = [root], {root}
+    needed = _needed(steps, [root])
+    return tuple(sorted(steps[item].place for item in needed if steps[item].operation == "input"))
+
+
+def _needed(steps: Sequence[Step], roots: Sequence[int]) -> set[int]:
+    """Return the steps that some steps are computed from, and these."""
+    waiting, seen = list(roots), set(roots)
     while waiting:
         for item in steps[waiting.pop()].arguments:
             if item not in seen:
                 seen.add(item)
                 waiting.append(item)
-    return tuple(sorted(steps[item].place for item in seen if steps[item].operation == "input"))
+    return seen
 
 
 # ---------------------------------------------------------------------------------------------------------------------

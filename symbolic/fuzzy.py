@@ -16,6 +16,7 @@ from .block import Block
 from .components import Ends, finish, wandering
 from .errors import ModelError, whole
 from .names import check_name, check_unique
+from .piecewise import maximum, minimum, saturated
 from .signals import WIDE, make_range
 
 LEAST_STRENGTH = 1.0e-6
@@ -293,7 +294,7 @@ class FuzzySystem:
         if self.defuzzify == "centres":
             return
         for output in self.outputs:
-            samples = midpoints(*output.ends, self.points)
+            samples = midpoints(output.ends, self.points)
             for item in output.sets:
                 a, _, _, d = item.corners
                 seen = self.aggregation == "sum" or np.any((samples > a) & (samples < d))
@@ -331,6 +332,7 @@ class FuzzySystem:
                 f"FuzzySystem: it is called with {len(expressions)} expression(s) and has {len(self.inputs)} input(s); give one "
                 "for each"
             )
+        given_numbers = all(ca.SX(item).is_constant() for item in expressions)
         degrees: list[dict[str, ca.SX]] = []
         for given, item in zip(expressions, self.inputs, strict=True):
             x = ca.SX(given)
@@ -339,16 +341,17 @@ class FuzzySystem:
                     f"FuzzySystem: the expression for {item.name!r} has {x.numel()} elements; give a scalar"
                 )
             low, high = item.range
-            held = ca.if_else(x < low, low, ca.if_else(x > high, high, x))
+            held = saturated(x, low, high)
             degrees.append({own.label: _membership(held, own.corners, item.range) for own in item.sets})
         strengths = []
         for labels, _, weight in self.rules:
             own = [degree[label] for degree, label in zip(degrees, labels, strict=True) if label is not None]
             together = own[0] if own else ca.SX(1)
             for other in own[1:]:
-                together = together * other if self.join == "product" else _least(together, other)
+                together = together * other if self.join == "product" else minimum(together, other)
             strengths.append(weight * together)
-        return ca.vertcat(*[self._defuzzified(k, strengths) for k in range(len(self.outputs))])
+        values = ca.vertcat(*[self._defuzzified(k, strengths) for k in range(len(self.outputs))])
+        return ca.SX(ca.evalf(values)) if given_numbers else values
 
     def _defuzzified(self, index: int, strengths: list[ca.SX]) -> ca.SX:
         """Return an output."""
@@ -364,15 +367,15 @@ class FuzzySystem:
             return _sum([moment for _, moment in cut]) / _sum([area for area, _ in cut])
         highest: dict[Corners, ca.SX] = {}
         for w, corners in said:
-            highest[corners] = _greatest(highest[corners], w) if corners in highest else w
+            highest[corners] = maximum(highest[corners], w) if corners in highest else w
         moments, areas = [], []
-        for y in midpoints(*self.outputs[index].ends, self.points):
+        for y in midpoints(self.outputs[index].ends, self.points):
             union: ca.SX | None = None
             for corners, height in highest.items():
                 degree = float(_degree(float(y), corners))
                 if degree > 0:
-                    own = height * degree if self.implication == "product" else _least(height, ca.SX(degree))
-                    union = own if union is None else _greatest(union, own)
+                    own = height * degree if self.implication == "product" else minimum(height, ca.SX(degree))
+                    union = own if union is None else maximum(union, own)
             if union is not None:
                 areas.append(union)
                 moments.append(float(y) * union)
@@ -462,15 +465,6 @@ def _degree(y: float, corners: Corners) -> float:
     if y < a or y > d:
         return 0.0
     return (y - a) / (b - a) if y < b else (d - y) / (d - c) if y > c else 1.0
-
-
-def _least(a: ca.SX, b: ca.SX) -> ca.SX:
-    """Return the smaller; NaN, which `fmin` would drop, stays."""
-    return ca.if_else(a < b, a, ca.if_else(b <= a, b, a + b))
-
-
-def _greatest(a: ca.SX, b: ca.SX) -> ca.SX:
-    return ca.if_else(a > b, a, ca.if_else(b >= a, b, a + b))
 
 
 def _sum(items: Sequence[ca.SX]) -> ca.SX:

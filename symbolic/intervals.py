@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import casadi as ca
+import numpy as np
 
 from .expressions import Step, tape
 
@@ -89,10 +91,15 @@ def _bounded(step: Step, given: list[Interval]) -> Interval:
             return _cosine(a[0] - math.pi / 2, a[1] - math.pi / 2)
         case "cos":
             return _cosine(*a)
-        case "fmin":
+        case "fmin" | "minimum":
             return min(a[0], b[0]), min(a[1], b[1])
-        case "fmax":
+        case "fmax" | "maximum":
             return max(a[0], b[0]), max(a[1], b[1])
+        case "saturation":
+            lower, upper = given[1:]
+            return min(max(a[0], lower[0]), upper[0]), min(max(a[1], lower[1]), upper[1])
+        case "look_up" | "look_up_slope":
+            return _looked_up(step.operation, a, [low for low, _ in given[1:]])
         case "if_else_zero":
             return min(b[0], 0.0), max(b[1], 0.0)
         case operation if operation in _RISING:
@@ -105,6 +112,17 @@ def _bounded(step: Step, given: list[Interval]) -> Interval:
             return 0.0, 1.0
         case operation:
             return _WITHIN.get(operation, ANYWHERE)
+
+
+def _looked_up(operation: str, x: Interval, numbers: list[float]) -> Interval:
+    """Return bounds of a table, or of its slope, over an interval; the numbers are its breakpoints and values."""
+    at, of = np.reshape(numbers, (2, -1))
+    if operation == "look_up":
+        met: list[Any] = [*np.interp(x, at, of), *of[(at >= x[0]) & (at <= x[1])]]
+    else:  # a slope that is met, or a mean of two
+        slopes = np.concatenate([[0.0], np.diff(of) / np.diff(at), [0.0]])
+        met = [*slopes[np.searchsorted(at, x[0], side="left") : np.searchsorted(at, x[1], side="right") + 1]]
+    return float(min(met)), float(max(met))
 
 
 def _product(a: Interval, b: Interval) -> Interval:

@@ -17,7 +17,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from ..reference.jump_matrix import SMALLEST_DIFFERENCE, Choice, ErrorStep
+from ..reference.jump_matrix import SMALLEST_DIFFERENCE, Choice, ErrorStep, JumpMap
 from ..reference.model import CarriedModel
 from .block import Block
 from .derivation import name_of
@@ -95,6 +95,28 @@ class JumpModel:
             symbol = truth._own(Symbol(signal))
             truth._books.sensors.append(Sensor(signal, ca.SX(state.symbol), symbol, None, False, None, signal.doc))
         return truth
+
+    @property
+    def one_step(self) -> Plant:
+        """The same map for the plant's own states: s+ = Phi_ss s + Phi_sn phi(s) + Gam_s u + Psi_s w (sec. 8).
+
+        From a state whose nonlinearities fit it moves as `plant` does, but that an input or noise inside a nonlinearity is that
+        of the start of the step. Its extended Kalman filter linearises phi at the corrected estimate, not at the projected one.
+        """
+        plant = copy.copy(self.plant)
+        names = {state.signal.name for state in self._clamp_states()}
+        kept, start = [], 0
+        for state in self.plant.states:
+            if state.signal.name not in names:
+                at = slice(start, start + state.signal.size)
+                kept.append(replace(state, at=at, error_at=at))
+                start = at.stop
+        plant._books = replace(self.plant._books, states=kept)
+        plant.independent = None
+        following = ca.substitute(self.projection, self.plant.x, self.J)
+        places = {state.signal.name: state.at for state in self.plant.states}
+        plant._dynamics = {state.signal.name: following[places[state.signal.name]] for state in kept}
+        return plant
 
     def point(self, values: Mapping[Any, Any] | None = None) -> dict[str, Any]:
         """Return a point of the discrete plant: state or input (or its name) -> value, nonlinearities at their values there.
@@ -375,6 +397,7 @@ class _Construction:
         )  # fmt: skip
         following = ca.substitute(jump, plant.x, projection)
         plant._dynamics = {name: following[state.at] for name, state in self.states.items()}
+        plant.independent = _independent(model)
         return model
 
     def _settle(self, noises: list[Noise]) -> None:
@@ -455,7 +478,9 @@ def jump_matrix_estimator(
     name, doc : str, optional
         Default name ``<plant>_jump_estimator``.
     **options
-        As for `extended_kalman_filter`.
+        As for `extended_kalman_filter`. The default `form` is "joseph", since the jump makes P singular; and by default a
+        variance has no floor if it is of a nonlinearity, which is known exactly where it saturates, or starts at zero. With
+        ``form="ud"`` all have a floor, and none may start at zero.
 
     Returns
     -------
@@ -472,8 +497,11 @@ def jump_matrix_estimator(
         raise ModelError(f"{plant.name}: a is {a!r}; take one of {', '.join(map(repr, get_args(Choice)))}")
     if not isinstance(initial_variance, Mapping):
         initial_variance = {state.signal.name: initial_variance for state in plant.states}
-    if a == "online" and options.get("form", "conventional") != "ud":
-        options.setdefault("variance_floor", 0.0)  # a zero of the online gain makes a variance exactly zero
+    # the jump makes P singular, and Joseph's form takes that well
+    if options.setdefault("form", "joseph") != "ud":
+        # on a saturated branch, or by a zero of the online gain, the variance of a nonlinearity is exactly zero
+        known = [name_of(key) for key, value in initial_variance.items() if np.any(np.asarray(value) == 0)]
+        options.setdefault("variance_floor", dict.fromkeys((*model.clamps, *known), 0.0))
     title = doc or f'Estimator of the plant "{plant.name}" by the jump matrix technique'
     step = None if a == "jacobian" and covariance_transition is None else _error_step(model, a, covariance_transition)
     block = filter_of(
@@ -539,6 +567,20 @@ def _error_step(model: JumpModel, a: Choice, transition: Any) -> CovarianceStep:
     return CovarianceStep(F, G, tuple(carried), _reference(model, a, given, [now.signal.name for now, _ in carried]))
 
 
+def _independent(model: JumpModel) -> JumpMap:
+    """Return the step for the oracle, of the continuous rates and of the jump."""
+    plant = model.plant
+    noises = ca.vertcat(ca.SX(0, 1), *[noise.symbol for noise in plant.process_noises])
+    x, u, p = plant.x, plant.u, plant.p
+    rates, jump = (
+        numpy_callable(ca.Function(what, [x, u, p, noises], [ca.densify(value)]))
+        for what, value in (("rates", model.rates), ("jump", model.J))
+    )
+    defaults = np.array([item for symbol in plant.parameters for item in symbol.signal.default or ()], dtype=float)
+    sizes = (len(model.Phi), u.numel(), noises.numel())
+    return JumpMap(rates, jump, sizes, defaults, float(plant.dt))  # type: ignore[arg-type]
+
+
 def _true_value(state: State) -> tuple[Symbol, Symbol]:
     """Return the input that is the true value of a nonlinearity, and the field that keeps it for the next sample."""
     said = state.signal
@@ -564,24 +606,7 @@ def _online(model: JumpModel, projection: ca.SX, carried: Sequence[tuple[Symbol,
 def _reference(model: JumpModel, a: Choice, transition: Array | None, carried: Sequence[str]) -> Any:
     """Return what propagates the covariance of the oracle, and what it reads beside the state."""
     plant = model.plant
-    noises = ca.vertcat(ca.SX(0, 1), *[noise.symbol for noise in plant.process_noises])
-    x, u, p = plant.x, plant.u, plant.p
-    lowered = [
-        numpy_callable(ca.Function(what, [x, u, p, noises], [ca.densify(value)]))
-        for what, value in (("rates", model.rates), ("jump", model.J))
-    ]
-    defaults = np.array([item for symbol in plant.parameters for item in symbol.signal.default or ()], dtype=float)
-    step = ErrorStep(
-        lowered[0],
-        lowered[1],
-        (len(model.Phi), u.numel(), noises.numel()),
-        defaults,
-        float(plant.dt),  # type: ignore[arg-type]
-        model.clamped,
-        a,
-        transition,
-        tuple(carried),
-    )
+    step = ErrorStep(plant.independent, model.clamped, a, transition, tuple(carried))
     states = {state.signal.name: state.signal for state in plant.states}
     told = []
     for name in carried:

@@ -148,6 +148,7 @@ class Plant:
         self.dt_symbol: ca.SX | None = ca.SX(float(dt)) if dt is not None else None
         self.discretisation: Discretisation | None = None
         self.step_variances: dict[str, tuple[float, ...]] = {}
+        self.independent: Any = None  # reference.JumpMap: the dynamics by another road, for the oracle
         self._books = _Books()
         self._dynamics: dict[str, ca.SX] = {}
         self.dynamics_sources: dict[str, str] = {}
@@ -557,6 +558,11 @@ class Plant:
         driven = copy.copy(self)
         noises = [noise.symbol for noise in self.noises]
         driven._books = replace(self._books, inputs=[*self.inputs, *noises], noises=[])
+        if self.independent is not None:
+            ends = np.cumsum([0, *[noise.numel() for noise in noises]])
+            used = {noise.signal.name for noise in self.process_noises}
+            named = [(noise.signal.name, range(ends[k], ends[k + 1])) for k, noise in enumerate(noises)]
+            driven.independent = self.independent.driven([i for name, at in named if name in used for i in at])
         if self.discretisation is not None:
             continuous = self.discretisation.continuous.driven_by_noise()
             driven.discretisation = replace(self.discretisation, continuous=continuous)

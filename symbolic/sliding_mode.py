@@ -17,9 +17,11 @@ from .derivation import name_of
 from .errors import ModelError
 from .expressions import equation_text, numpy_callable
 from .fuzzy import FuzzySystem
-from .intervals import bounds
+from .intervals import Interval, bounds
+from .piecewise import saturated
 from .plant import Plant, State, Symbol, wrap
 from .signals import WIDE, Signal
+from .subexpressions import Subexpressions
 
 LARGEST = 1.0e3
 """How much larger than given lambda, mu, K and a width may be made at run time; where they are below one, than one."""
@@ -68,7 +70,7 @@ class Switching:
             return ca.tanh(v)
         if self.system is not None:
             return self.system(v)
-        return ca.if_else(v < -1, -1, ca.if_else(v > 1, 1, v))
+        return saturated(v, -1, 1)
 
 
 def sign() -> Switching:
@@ -489,7 +491,7 @@ def _derived(name: str, plant: Plant, state: State, command: Symbol, later: list
             "state that it moves two integrations later"
         )
     second = ca.jtimes(rate, plant.x, ca.vertcat(*by_time))
-    g = ca.jacobian(second, command)
+    g = _without_calls(plant, ca.jacobian(second, command))
     if g.nnz() == 0:
         raise ModelError(
             f"{name}: the input {moved!r} does not move the second derivative of {output!r}; name one that does"
@@ -508,6 +510,15 @@ def _derived(name: str, plant: Plant, state: State, command: Symbol, later: list
     return rate, ca.substitute(second, command, ca.SX(0)), ca.densify(g)
 
 
+def _without_calls(plant: Plant, derivative: ca.SX) -> ca.SX:
+    """Return a derivative without the calls of piecewise functions that CasADi differentiates along nothing, and keeps."""
+    symbols = [ca.SX(item) for item in (*[s.symbol for s in plant.states], *plant.inputs, *plant.parameters)]
+    function = ca.Function("derivative", symbols, [ca.densify(derivative)])
+    if not any(function.instruction_id(k) == ca.OP_CALL for k in range(function.n_instructions())):
+        return derivative
+    return ca.sparsify(Subexpressions(symbols, [derivative]).rebuilt(0, {}))
+
+
 def _floor(
     name: str, plant: Plant, state: State, g: ca.SX, least: float | None, before: list[_Channel]
 ) -> float | None:
@@ -519,13 +530,7 @@ def _floor(
                 f"{name}: least of {output!r} is {least!r}; give a number that is not zero, with the sign of g"
             )
         return float(least)
-    symbols = [item for item in (*[s.symbol for s in plant.states], *plant.inputs, *plant.parameters)]
-    held = {own.command.signal.name: own.limits for own in before if own.limits is not None}
-    ranges = [
-        [held[item.signal.name]] if held.get(item.signal.name) else list(zip(*_range(item.signal), strict=True))
-        for item in symbols
-    ]  # fmt: skip
-    low, high = bounds(g, symbols, ranges)[0]
+    low, high = _bounds_of(g, plant, before)
     if low <= 0 <= high or not math.isfinite(1 / low) or not math.isfinite(1 / high):
         text = equation_text(g, plant.symbol_names())[0]
         raise ModelError(
@@ -533,6 +538,14 @@ def _floor(
             f"it is in {low:.4g} .. {high:.4g}; narrow the ranges, or give least={{{output!r}: ...}}, where to hold it"
         )
     return None
+
+
+def _bounds_of(g: ca.SX, plant: Plant, before: list[_Channel]) -> Interval:
+    """Return where g is, for the ranges of the plant and the limits of the commands that were found."""
+    symbols = [*[s.symbol for s in plant.states], *plant.inputs, *plant.parameters]
+    held = {own.command.signal.name: [own.limits] for own in before if own.limits is not None}
+    ranges = [held.get(item.signal.name) or list(zip(*_range(item.signal), strict=True)) for item in symbols]
+    return bounds(g, symbols, ranges)[0]
 
 
 def _uses(channels: list[_Channel], symbol: ca.SX) -> bool:
@@ -667,12 +680,21 @@ def _oracle(plant: Plant, channels: list[_Channel]) -> reference.SlidingMode:
     )  # fmt: skip
 
 
+def _far(plant: Plant, own: _Channel, channels: list[_Channel]) -> float:
+    """Return an acceleration for which a command that is held leaves its limits; 0 where none is."""
+    if own.limits is None:
+        return 0.0
+    largest = max(map(abs, _bounds_of(own.g, plant, channels)))
+    return 1.5 * max(map(abs, own.limits)) * (largest if math.isfinite(largest) else 1.0)
+
+
 def _following(
     plant: Plant, taken: Mapping[str, Symbol], aims: Mapping[str, tuple[Symbol, ...]], channels: list[_Channel]
 ) -> Calls:
     """Return steps in which states wander over what is ordinary of their ranges, and references beside them."""
     moving = {own.name: own.rate_state(plant) for own in channels}
     widths = {own.name: own.switching.width or 0.1 for own in channels}
+    far = {own.name: _far(plant, own, channels) for own in channels}
     spans = {
         name: [middle_of(ends, NEAR) for ends in zip(symbol.signal.low, symbol.signal.high, strict=True)]
         for name, symbol in taken.items()
@@ -681,7 +703,7 @@ def _following(
     def calls(rng: Any, steps: int) -> Iterator[tuple[str, dict[str, Any]]]:
         yield "init", {}
         drive = {name: np.zeros(len(ends)) for name, ends in spans.items()}
-        for _ in range(steps):
+        for k in range(steps):
             inputs = {}
             for name, ends in spans.items():
                 drive[name] = 0.8 * drive[name] + 0.6 * rng.normal(size=len(ends))
@@ -689,7 +711,8 @@ def _following(
             for name, (value, rate, acceleration) in aims.items():
                 moved = moving[name]
                 middle = inputs[moved.name] if moved is not None and moved.name in inputs else 0.0
-                for symbol, about in ((value, inputs[name]), (rate, middle), (acceleration, 0.0)):
+                beyond = far[name] * (-1) ** (k // 8) if k % 8 == 7 else 0.0
+                for symbol, about in ((value, inputs[name]), (rate, middle), (acceleration, beyond)):
                     wanted = about + 2 * widths[name] * np.tanh(rng.normal())
                     inputs[symbol.signal.name] = np.clip(np.ravel(wanted), symbol.signal.low, symbol.signal.high)
             yield "step", inputs

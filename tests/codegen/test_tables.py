@@ -9,11 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from plantc.codegen.bounds import source_loops
-from plantc.codegen.crosscheck import cross_check, make_views
+from plantc.codegen.crosscheck import ON_KINKS, CrossCheck, cross_check, make_probes, make_views
 from plantc.codegen.emit import emit
+from plantc.codegen.emulator import TargetView
+from plantc.codegen.on_target import free_trace, run_on_target
 from plantc.codegen.proof import prove
 from plantc.codegen.rounding import bound_rounding
 from plantc.codegen.tables import Table
+from plantc.codegen.targets import TARGETS
 from plantc.codegen.views import InterpretView, NativeView
 from plantc.symbolic import ModelError, Plant, fmax, fmin, sqrt
 from plantc.symbolic.piecewise import dead_zone, look_up, maximum, minimum, relay, saturated
@@ -271,3 +274,17 @@ def test_no_index_leaves_its_table_whatever_is_looked_up(needs, precision):
     broken = dataclasses.replace(text, source=text.source.replace("(next <= last) && ", ""))
     assert broken.source != text.source
     assert not all(item.passed for item in prove(block, broken).checks)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("target", ["cortex-m4", "cortex-m7", "rv32"])
+def test_every_target_gives_the_same_bits(needs, target):
+    needs(f"{TARGETS[target].prefix}gcc", TARGETS[target].emulator)
+    native = NativeView(SERVO, "float")
+    probes = make_probes(SERVO, "float", make_views(SERVO, "float", native), 40, 0)
+    assert any(probe.trace == ON_KINKS for probe in probes)
+    for probe in probes:
+        probe.answer = native.call(probe.entry, probe.memory, probe.inputs, probe.params)
+    view = TargetView(SERVO, "float", TARGETS[target])
+    found = run_on_target(view, native, CrossCheck([], {}, probes), native.run(free_trace(SERVO, 100)))
+    assert all(item.passed for item in found.checks[:2]), [str(item.mismatch) for item in found.checks]

@@ -13,10 +13,11 @@ from plantc.examples.fsmc_autopilot import CHANNELS, LAWS, SURFACES, Flight, aut
 from plantc.examples.fsmc_quadrotor import COMMANDS, STATES
 from plantc.reference import fsmc
 from plantc.reference.fsmc import SET_A, Controller, Scenario, disturbances, simulate
-from plantc.simulation import monte_carlo
+from plantc.simulation import monte_carlo, run_batch
+from plantc.simulation import simulate as over_views
 from plantc.symbolic.composition import connect, delay
 
-from plantc import NativeView, cross_check
+from plantc import NativeView, ReferenceView
 
 GOLDEN = runpy.run_path(str(Path(__file__).parents[1] / "reference/fsmc_goldens.py"))
 ESTIMATE, ONE_STEP, C, D, E, WRONG = (GOLDEN[name] for name in ("ESTIMATE", "ONE_STEP", "C", "D", "E", "WRONG"))
@@ -357,9 +358,10 @@ def test_the_filters_covariance_stays_positive():
     d, v = disturbances(2000, onset=0.0, seed=3)
     for tuning in fsmc.TUNINGS:
         flight = Flight(steps=2000, tuning=tuning, d=d, v=v)
-        batch = fsmc_autopilot._batch(flight.loop())
+        ring = flight.loop()
+        batch = fsmc_autopilot.compiled(ring)
         inputs = batch.inputs(1999)
-        for name, value in fsmc_autopilot.loop().held.items():
+        for name, value in ring.held.items():
             inputs[name] = value
         inputs["plant_pose_noise"] = v[:-1]
         answer = batch.run(inputs, batch.params(fsmc_autopilot.settings(flight)))
@@ -390,11 +392,24 @@ def test_the_variants_of_section_11_7():
     np.testing.assert_allclose(other.chattering(5, 10), (16.1, 12.1, 12.2, 0.58), rtol=0.15)
     long_d, long_v = disturbances(20000, seed=6)
     ramp = fly(Flight(steps=20000, ramp=True, d=long_d, v=long_v))
-    assert ramp.tracking(10, 20)[10] == pytest.approx(0.0009, rel=0.25)
+    # the page says "about 0.0009", of one stream; thirty streams lie between 0.0007 and 0.0033, in the reference too
+    assert 0.0005 < ramp.tracking(10, 20)[10] < 0.004
+    assert fly(Flight(steps=20000, ramp=True, d=disturbances(20000)[0])).tracking(10, 20)[10] < 0.0009
     far = tuple(4.0 if k == 6 else -4.0 if k == 8 else 0.0 for k in range(12))
     away = fly(Flight(steps=20000, X=far, estimate=far, d=long_d, v=long_v))
     assert away.diverged is None and away.tracking(15, 20)[6] < 0.012
     assert np.mean(away.clipped[:5000]) == pytest.approx(0.05, abs=0.02)
+
+
+@pytest.mark.slow
+def test_four_states_may_be_read_instead_of_six():
+    """x, y, z and psi, as section 5 of the paper has it: noise goes to what is read, and the reference does the same."""
+    d, v = disturbances(1500, onset=0.2, seed=2)
+    read, rows = ("yaw", "x", "y", "z"), (4, 6, 8, 10)
+    run = fly(Flight(steps=1500, read=read, tuning="robust", d=d, v=v))
+    told = simulate(Scenario(steps=1500, rows=rows, tuning="robust", d=d, v=v[:, 2:]))
+    np.testing.assert_allclose(run.X, told.X, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(run.estimate, told.estimate, rtol=0, atol=1e-8)
 
 
 @pytest.mark.slow
@@ -405,14 +420,15 @@ def test_a_heavier_vehicle_than_the_filter_believes():
         assert run.tracking(5, 10)[10] == pytest.approx(expected, rel=0.05)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("which", LAWS)
-def test_the_views_of_the_law_agree_in_float(which):
-    check = cross_check(control_law(which), "float", steps=40)
-    assert check.passed, [(item.name, str(item.mismatch), item.note) for item in check.failures]
-
-
-@pytest.mark.slow
-def test_the_views_of_the_autopilot_agree_in_float():
-    check = cross_check(fsmc_autopilot.fsmc_autopilot, "float", steps=20)
-    assert check.passed, [(item.name, str(item.mismatch), item.note) for item in check.failures]
+def test_the_oracles_composed_along_the_wires_fly_it_too():
+    """Plant, filter, laws and mixer in NumPy, each by its own oracle. The whole cross-check is that of the export."""
+    ring, start = fsmc_autopilot.loop(), fsmc_autopilot.first_step(Flight())[0]
+    noise = {"pose_noise": 0.01 * np.random.default_rng(5).standard_normal((25, 6))}
+    told = over_views(ring, ReferenceView(ring.truth), ReferenceView(ring.controller), 25, noise=noise, params=start)
+    run = run_batch(
+        fsmc_autopilot.compiled(fsmc_autopilot.loop()), ring.layout, noise, 25, params=start, held=ring.held
+    )
+    np.testing.assert_allclose(run.truth, told.truth, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(run.estimate, told.estimate, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(run.commands, told.commands, rtol=1e-9, atol=1e-9)
+    assert np.array_equal(run.statuses, told.statuses)

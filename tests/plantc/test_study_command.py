@@ -15,7 +15,7 @@ def asked(monkeypatch):
     """A study that records how it was asked for."""
     calls = []
 
-    def study(runs, seed, *, on=None, progress=None):
+    def study(runs=7, seed=0, *, on=None, progress=None):
         calls.append((runs, seed, on))
         progress("half", 1, 2)
         print("what a study prints")
@@ -37,6 +37,11 @@ def asked(monkeypatch):
     return calls
 
 
+def test_without_runs_the_study_says_how_many(asked, plantc, tmp_path):
+    assert plantc("study", "sample", "--out", tmp_path).status == 0
+    assert asked == [(7, 2018, None)]
+
+
 def test_it_writes_the_folder_and_says_what_came_out(asked, plantc, tmp_path):
     said = plantc("study", "sample", "--runs", 3, "--seed", 5, "--out", tmp_path, "--on", "dask://there:1")
     assert (said.status, said.out) == (0, "")
@@ -51,8 +56,8 @@ def test_json_is_alone_on_standard_output(asked, plantc, tmp_path):
     answer = json.loads(said.out)
     assert answer["status"] == 0
     assert answer["summary"] == said.summary
-    assert asked == [(20, 2018, None)]
-    assert answer["results"]["conditions"] == {"Runs": 20}
+    assert asked == [(7, 2018, None)]
+    assert answer["results"]["conditions"] == {"Runs": 7}
     assert answer["results"]["tables"]["main"]["rows"] == [[None]]
     assert answer["verdicts"]["does not reproduce"] == 1
 
@@ -60,7 +65,10 @@ def test_json_is_alone_on_standard_output(asked, plantc, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["study", "meda2081"], "there is no study 'meda2081'; give one of meda2018, regulation2023, fsmc2018, sample"),
+        (
+            ["study", "meda2081"],
+            "there is no study 'meda2081'; give one of meda2018, regulation2023, jump_matrix, fsmc2018, sample",
+        ),
         (["study", "sample", "--runs", "0"], "Invalid value for '--runs': 0 is not in the range"),
         (["study", "sample", "--runs", "many"], "Invalid value for '--runs': 'many' is not a valid integer range"),
         (["study", "sample", "--seed", "-1"], "Invalid value for '--seed'"),
@@ -68,6 +76,7 @@ def test_json_is_alone_on_standard_output(asked, plantc, tmp_path):
         (["study", "sample", "--seed", "14"], "interrupted"),
         (["study", "sample", "--seed", "15"], "error: nobody answers at dask://there:1; start a scheduler"),
         (["study", "regulation2023", "--on", "dask://there:1"], "this study runs in this process only; leave it out"),
+        (["study", "jump_matrix", "--on", "dask://there:1"], "this study runs on this machine only; leave it out"),
         (["study"], "Missing argument 'NAME'"),
     ],
 )

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from plantc.symbolic.intervals import bounds
+from plantc.symbolic.piecewise import look_up, maximum, minimum, saturated
 
 X, Y = ca.SX.sym("x"), ca.SX.sym("y")
 EXPRESSIONS = {
@@ -15,6 +16,8 @@ EXPRESSIONS = {
     "rational": (X - Y) / (1 + Y**2) - 1 / (3 + ca.fabs(X)),
     "roots": ca.sqrt(X**2 + 1) - ca.log(2 + ca.cos(Y)) + ca.exp(-Y),
     "pieces": ca.fmin(X, Y) + ca.fmax(X, 0.5) + ca.if_else(X < Y, X, Y) + ca.sign(X) + ca.floor(Y),
+    "tables": look_up(X, [-2, 0, 1, 3], [5, -1, 2, 2]) + ca.jacobian(look_up(X + Y, [-2, 0, 1], [5, -1, 2]), X),
+    "saturations": saturated(X, -1, 2) - saturated(3 * X, Y, Y + 1) + minimum(X, Y) * maximum(Y, 1),
     "bounded": ca.tanh(X) + ca.atan(Y) + ca.atan2(X, Y) + ca.sinh(Y),
 }
 ENDS = st.floats(-7, 7, allow_subnormal=False)
@@ -42,6 +45,10 @@ def test_no_value_is_out_of_bounds(name, ends, at):
         (1 / X, (-1, 1), (-math.inf, math.inf)),
         (ca.sqrt(X), (-1, 1), (-math.inf, math.inf)),
         (X**1.5, (1, 2), (-math.inf, math.inf)),
+        (look_up(X, [0, 1, 2, 3], [0, 5, -5, 1]), (0.5, 2.5), (-5, 5)),
+        (look_up(X, [0, 1, 2, 3], [0, 5, -5, 1]), (1.5, 1.75), (-2.5, 0)),
+        (ca.jacobian(look_up(X, [0, 1, 2], [0, 5, -5]), X), (-1, 0.5), (0, 5)),
+        (saturated(X, -1, 2), (-0.5, 9), (-0.5, 2)),
         (X - X + 0 * X + ca.tanh(1e9 * X), (-1, 1), (-1, 1)),
     ],
 )

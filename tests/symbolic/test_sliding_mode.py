@@ -147,8 +147,9 @@ ONE_STEP = {  # u1, u2, u3, u4, commanded roll and pitch: specs/ekf_fsmc.md, sec
 }
 
 
-@pytest.mark.parametrize("law", ONE_STEP)
-@pytest.mark.parametrize("view", [ReferenceView, NativeView])
+@pytest.mark.parametrize(
+    ("law", "view"), [("FSMC", ReferenceView), ("SMC", ReferenceView), ("tanh", ReferenceView), ("FSMC", NativeView)]
+)
 def test_one_step_of_the_published_laws(law, view):
     """At t = 2 s: thrust, then where it is to point, then torques that follow the filtered angles."""
     turn, psi = math.pi / 4, math.pi / 4
@@ -188,6 +189,7 @@ def test_one_step_of_the_published_laws(law, view):
     assert found["switching_gain_z"] == pytest.approx(share, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_the_steady_error_of_a_constant_disturbance():
     """Section 11.6, true state: (mu + 0.8 K / Phi) s = d, s = lambda e; with the sign, next to nothing is left."""
     plant = vehicle()
@@ -339,9 +341,9 @@ def test_the_time_to_a_layer():
         while abs(rate[0] + 1e-4 * e[0]) > width and k < 10_000:
             inputs = {"place": e, "speed": rate} | {key: np.zeros(1) for key in aims(place=(0, 0, 0))}
             push = formula({}, inputs, params)[2]["push"]
-            e, rate, k = e + 1e-3 * rate, rate + 1e-3 * (2 * push + D_MAX + M_MAX), k + 1
-        found[name] = k * 1e-3
-    assert found["layer"] == found["fuzzy"] == pytest.approx(bound, abs=2e-3)
+            e, rate, k = e + 4e-3 * rate, rate + 4e-3 * (2 * push + D_MAX + M_MAX), k + 1
+        found[name] = k * 4e-3
+    assert found["layer"] == found["fuzzy"] == pytest.approx(bound, abs=8e-3)
     assert found["tanh"] > 1.02 * bound
 
 
@@ -566,10 +568,7 @@ def failures(check):
 TERMS = {"layer": boundary_layer(0.2), "tanh": tanh(0.2), "sign": sign(), "fuzzy": fuzzy(five_rules(), 0.2)}
 
 
-@pytest.mark.parametrize(
-    ("name", "precision"),
-    [("layer", "double"), ("tanh", "float"), ("sign", "float"), ("fuzzy", "float"), ("fuzzy", "double")],
-)
+@pytest.mark.parametrize(("name", "precision"), [("tanh", "float"), ("sign", "double"), ("fuzzy", "float")])
 def test_all_views_agree(name, precision):
     check = cross_check(cart(TERMS[name], saturate=name == "fuzzy"), precision, steps=25)
     assert check.passed, failures(check)
