@@ -13,7 +13,7 @@ import numpy as np
 
 from ..reference.fuzzy import Corners, Fuzzy, area_and_moment, midpoints
 from .block import Block
-from .components import Ends, finish, wandering
+from .components import Ends, finish, is_number, wandering
 from .errors import ModelError, whole
 from .names import check_name, check_unique
 from .piecewise import maximum, minimum, saturated
@@ -270,7 +270,7 @@ class FuzzySystem:
                     )
             sides.append(labels)
         weight = given[2] if len(given) == 3 else 1.0
-        if not isinstance(weight, (int, float)) or not 0 < weight <= 1:
+        if not is_number(weight) or not 0 < weight <= 1:
             raise ModelError(
                 f"FuzzySystem: the weight of the rule {given!r} is {weight!r}; give more than 0 and at most 1"
             )

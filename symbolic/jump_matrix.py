@@ -113,6 +113,7 @@ class JumpModel:
                 start = at.stop
         plant._books = replace(self.plant._books, states=kept)
         plant.independent = None
+        plant.step_variances = {key: value for key, value in self.plant.step_variances.items() if key not in names}
         following = ca.substitute(self.projection, self.plant.x, self.J)
         places = {state.signal.name: state.at for state in self.plant.states}
         plant._dynamics = {state.signal.name: following[places[state.signal.name]] for state in kept}
@@ -404,7 +405,7 @@ class _Construction:
         """Make the copy a discrete plant."""
         plant, original = self.plant, self.original
         converted = {noise.signal.name: noise for noise in noises}
-        plant.dt, plant.dt_symbol = self.dt, ca.SX(self.dt)
+        plant.dt, plant.dt_symbol, plant.step_variances = self.dt, ca.SX(self.dt), {}
         plant._books = replace(
             plant._books, noises=[converted.get(noise.signal.name, noise) for noise in original.noises]
         )

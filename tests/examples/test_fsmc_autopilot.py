@@ -285,7 +285,7 @@ def test_scenario_d():
 
 def test_every_signal_of_scenario_d_is_that_of_the_reference():
     told, run = simulate(Scenario(steps=1000)), scenario_d()
-    for name in ("X", "estimate", "reference", "u", "applied", "w", "Om", "s"):
+    for name in ("X", "estimate", "reference", "u", "applied", "w", "Om", "s", "switching", "deviation"):
         np.testing.assert_allclose(getattr(run, name)[:1000], getattr(told, name), rtol=0, atol=1e-9, err_msg=name)
 
 

@@ -599,6 +599,21 @@ def test_the_jacobian_estimator_is_an_extended_kalman_filter():
     np.testing.assert_allclose(small, model.Phi[:2, 2] * 3 * 1.5 * (0.1 * gain) ** 2, rtol=0.02)
 
 
+def test_noise_per_step_may_be_added():
+    """As to any discrete plant; the filter adds it behind a, and so does the oracle."""
+    model = made()
+    model.plant.step_noise({"angle": 1e-6, "gravity": 1e-4})
+    assert not model.continuous.step_variances
+    assert list(model.one_step.step_variances) == ["angle"]
+    block = jump_matrix_estimator(model, "identity", initial_variance=0.0)
+    filter_ = Compiled(block)
+    assert filter_("predict", torque=0.0) == Status.OK
+    expected = model.Psi @ model.Psi.T + np.diag([1e-6, 0, 1e-4])
+    np.testing.assert_allclose(filter_.P(), expected, rtol=1e-14)
+    check = cross_check(block, steps=20)
+    assert check.passed, [item for item in check.results if not item.passed]
+
+
 @pytest.mark.slow
 def test_an_estimator_without_any_floor_is_exported(tmp_path):
     """A variance of zero is no fault; that there is nothing below it to be raised is no statement that nothing reaches."""
