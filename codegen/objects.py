@@ -28,6 +28,8 @@ _SECTION_GAP = 0x1000
 _WRITE, _ALLOC, _EXECUTE = 1, 2, 4
 _OFFSETS = {"x86-64": (2,), "rv32": (35,)}
 """Relocations of offsets from a table's own address: R_X86_64_PC32, R_RISCV_ADD32 (with its SUB32)."""
+_JALR = 0x67
+"""Opcode on RISC-V of a jump to a register, for which an auipc before it may hold the upper part of the address."""
 _IGNORED_SYMBOLS = frozenset({"", "_GLOBAL_OFFSET_TABLE_"})
 
 
@@ -336,8 +338,10 @@ class Image:
 
     def _relocated(self, raw: Any, target: int | None) -> int | str | None:
         places = [raw.address + k for k in range(raw.size)]
-        if self.machine == "rv32":
-            places.append(raw.address - 4)  # of auipc and jalr, the first has it
+        if self.machine == "rv32" and raw.size == 4 and raw.bytes[0] & 0x7F == _JALR:
+            places.append(
+                raw.address - 4
+            )  # of auipc and jalr, the first has it; what stands before a branch is not its own
         found = next((self._fixed[place] for place in places if place in self._fixed), None)
         if found is None:
             return target
@@ -374,7 +378,7 @@ class Image:
                 13,
             )
             return "jump", True, at
-        if opcode == 0x67:
+        if opcode == _JALR:
             offset = _signed(word >> 20, 12)
             if rd == 0 and rs1 in (1, 5) and not offset and not self._is_upper(raw.address - 4, rs1):
                 return "return", False, None

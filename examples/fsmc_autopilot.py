@@ -7,7 +7,7 @@ the yaw are what the attitude law follows; the mixer turns thrust and torques in
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from math import pi
@@ -24,9 +24,9 @@ from plantc.examples.fsmc_quadrotor import (
     FASTEST,
     READ,
     SET_A,
-    SETS,
     STATES,
     THRUST_FACTOR,
+    VEHICLES,
     ekf,
     hover,
     mixer,
@@ -34,10 +34,11 @@ from plantc.examples.fsmc_quadrotor import (
     tuned,
     vehicle,
 )
-from plantc.reference.fsmc import Run
+from plantc.reference.fsmc import Run, course
 from plantc.simulation import ClosedLoop, closed_loop
 from plantc.symbolic import Block, Plant, cos, sin
 from plantc.symbolic.command_filter import command_filter
+from plantc.symbolic.components import finish
 from plantc.symbolic.composition import Delay, connect, delay, wires
 from plantc.symbolic.fuzzy import FuzzyInput, FuzzyOutput, FuzzySet, FuzzySystem
 from plantc.symbolic.sliding_mode import Switching, fuzzy, sign, sliding_mode, tanh
@@ -234,7 +235,12 @@ def trajectory(*, ramp: bool = False, name: str = "trajectory") -> Block:
     }
     block.entry("step", following={count: count + 1}, outputs=outputs, output_units=said)
     block.sample_time = DT
-    return block
+
+    def calls(rng: Any, steps: int) -> Iterator[tuple[str, dict[str, Any]]]:
+        yield "init", {}
+        yield from (("step", {}) for _ in range(steps))
+
+    return finish(block, {"step": course}, calls)
 
 
 def led(controller: Block, follows: Block, name: str = "led") -> Block:
@@ -248,7 +254,10 @@ def led(controller: Block, follows: Block, name: str = "led") -> Block:
 
 
 @cache
-def loop(law: str = "FSMC", which: str = "A", *, estimated: bool = True, ramp: bool = False) -> ClosedLoop:
+def loop(
+    law: str = "FSMC", which: str = "A", *, estimated: bool = True, ramp: bool = False, believed: str = "",
+    read: tuple[str, ...] = READ, shaken: bool = False,
+) -> ClosedLoop:  # fmt: skip
     """Return the whole scheme with a vehicle whose mass and inertias are parameters, as one block that is compiled.
 
     Parameters
@@ -256,16 +265,24 @@ def loop(law: str = "FSMC", which: str = "A", *, estimated: bool = True, ramp: b
     law : str
         One of `LAWS`.
     which : str
-        "A" or "B", of plant, filter and law.
+        Of plant, filter and law: a key of `fsmc_quadrotor.VEHICLES`.
     estimated : bool
         Whether the law is given the estimate; else the true state.
     ramp : bool
         See `trajectory`.
+    believed : str
+        Of filter and law, where it is another than `which`.
+    read : tuple of str
+        The states that are read.
+    shaken : bool
+        Whether noise may be added to each state in each step, inputs ``plant_<state>_noise``.
     """
-    values = SETS[which]
-    own = ("mass", "inertia_x", "inertia_y", "inertia_z")
-    truth = sampled(vehicle(values=values, tunable=own, disturbed=True, seen=not estimated))
-    pilot = autopilot(law, values) if estimated else control_law(law, values)
+    values, own = VEHICLES[which], ("mass", "inertia_x", "inertia_y", "inertia_z")
+    truth = sampled(vehicle(values=values, tunable=own, disturbed=True, seen=not estimated, read=read))
+    if shaken:
+        truth.step_noise(dict.fromkeys(STATES, 1e-2))
+    model = VEHICLES[believed or which]
+    pilot = autopilot(law, model, read=read) if estimated else control_law(law, model)
     controller = led(pilot, trajectory(ramp=ramp))
     readings: dict[str, str] = {}
     if not estimated:
@@ -290,16 +307,23 @@ class Flight:
     ----------
     steps : int
         How many, the first at t = 0.
-    law, which, estimated, ramp
+    law, which, estimated, ramp, read
         See `loop`.
     tuning : str
         Of the filter.
     X, estimate : tuple of 12 float
         State and estimate at the start.
     d, v : array (steps, 6), optional
-        Accelerations, and noise of the reading one step later; see `reference.fsmc.disturbances`.
+        Accelerations, and noise of the reading one step later; see `reference.fsmc.disturbances`. Of `v` those columns are
+        taken that are read.
     params : dict
         Other parameters of the loop, such as ``plant.mass``.
+    believed : str
+        See `loop`.
+    read : tuple of str
+        The states that are read.
+    w : array (steps, 12), optional
+        What is added to the states in each step.
     """
 
     steps: int = 10000
@@ -313,16 +337,27 @@ class Flight:
     d: Array | None = None
     v: Array | None = None
     params: Mapping[str, Any] | None = None
+    believed: str = ""
+    read: tuple[str, ...] = READ
+    w: Array | None = None
+
+    def loop(self) -> ClosedLoop:
+        """Return the loop that is flown; the same one for all flights that differ in numbers only."""
+        return loop(
+            self.law, self.which, estimated=self.estimated, ramp=self.ramp, believed=self.believed, read=self.read,
+            shaken=self.w is not None,
+        )  # fmt: skip
 
 
 @cache
-def _batch(law: str, which: str, estimated: bool, ramp: bool) -> Batch:
-    return Batch(loop(law, which, estimated=estimated, ramp=ramp).text)
+def compiled(ring: ClosedLoop) -> Batch:
+    """Return the C of a loop, compiled once."""
+    return Batch(ring.text)
 
 
 @cache
 def _first(law: str, which: str) -> NativeView:
-    return NativeView(control_law(law, SETS[which]))
+    return NativeView(control_law(law, VEHICLES[which]))
 
 
 @cache
@@ -350,7 +385,7 @@ def first_step(flight: Flight) -> tuple[dict[str, Any], dict[str, Any]]:
     The loop begins with the plant moved and read. What is applied until then, and where the command filters are after it, are
     parameters of the loop.
     """
-    view, follows = _first(flight.law, flight.which), _reference(flight.ramp)
+    view, follows = _first(flight.law, flight.believed or flight.which), _reference(flight.ramp)
     given = flight.params or {}
     seen = dict(zip(STATES, flight.estimate if flight.estimated else flight.X, strict=True))
     course = follows.params(**_own(given, "trajectory"), count_0=0.0)
@@ -384,7 +419,9 @@ def settings(flight: Flight) -> dict[str, Any]:
     answer, _ = first_step(flight)
     answer |= {f"plant.{state}_0": value for state, value in zip(STATES, flight.X, strict=True)}
     if flight.estimated:
-        answer |= {f"controller.pilot.estimator.{key}": value for key, value in tuned(flight.tuning).items()}
+        answer |= {
+            f"controller.pilot.estimator.{key}": value for key, value in tuned(flight.tuning, flight.read).items()
+        }
         for state, value in zip(STATES, flight.estimate, strict=True):
             answer[f"controller.pilot.estimator.{state}_0"] = value
     places = {
@@ -410,6 +447,22 @@ SURFACES = (
     "attitude.surface_roll", "attitude.surface_pitch", "attitude.surface_yaw", "position.surface_x", "position.surface_y",
     "altitude.surface_z",
 )  # fmt: skip
+SWITCHING = tuple(name.replace("surface", "switching_gain") for name in SURFACES)
+
+
+def _inputs(flight: Flight, batch: Batch, held: Mapping[str, float]) -> Any:
+    """Return the inputs of the loop: what is constant, and the disturbances."""
+    inputs = batch.inputs(flight.steps - 1)
+    for name, value in held.items():
+        inputs[name] = value
+    if flight.d is not None:
+        inputs["plant_angular_disturbance"], inputs["plant_linear_disturbance"] = flight.d[:-1, :3], flight.d[:-1, 3:]
+    if flight.v is not None:
+        inputs["plant_pose_noise"] = flight.v[:-1, [READ.index(state) for state in flight.read]]
+    for k, state in enumerate(STATES if flight.w is not None else ()):
+        assert flight.w is not None
+        inputs[f"plant_{state}_noise"] = flight.w[:-1, k]
+    return inputs
 
 
 def fly(flight: Flight) -> Run:
@@ -427,17 +480,10 @@ def fly(flight: Flight) -> Run:
     Run
         At t = k DT, k = 0 .. steps - 1.
     """
-    ring = loop(flight.law, flight.which, estimated=flight.estimated, ramp=flight.ramp)
-    batch = _batch(flight.law, flight.which, flight.estimated, flight.ramp)
+    ring = flight.loop()
+    batch = compiled(ring)
     _, first = first_step(flight)
-    inputs = batch.inputs(flight.steps - 1)
-    for name, value in ring.held.items():
-        inputs[name] = value
-    if flight.d is not None:
-        inputs["plant_angular_disturbance"], inputs["plant_linear_disturbance"] = flight.d[:-1, :3], flight.d[:-1, 3:]
-    if flight.v is not None:
-        inputs["plant_pose_noise"] = flight.v[:-1]
-    answer = batch.run(inputs, batch.params(settings(flight)))
+    answer = batch.run(_inputs(flight, batch, ring.held), batch.params(settings(flight)))
 
     def column(record: Any, path: str) -> Any:
         for piece in path.split("."):
@@ -456,6 +502,11 @@ def fly(flight: Flight) -> Run:
         return np.vstack([start, np.column_stack([column(answer.memory, f"{prefix}.{state}") for state in STATES])])
 
     X = states("plant", flight.X)
+    deviation = np.full((len(X), 12), np.nan)
+    if flight.estimated:
+        packed = np.cumsum([0, *range(12, 1, -1)])  # where the diagonal lies in the upper triangle by rows
+        deviation[0] = 1.0
+        deviation[1:] = np.sqrt(answer.memory["controller"]["pilot"]["estimator"]["covariance"][:, packed])
     w = np.vstack([first["mixer.speed"], column(answer.outputs, f"{pilot}.mixer.speed")])
     sines = np.abs(rows(("allocation.sine_roll", "allocation.sine_pitch")))
     most = float((flight.params or {}).get("law.allocation.limit", STEEPEST))
@@ -468,6 +519,8 @@ def fly(flight: Flight) -> Run:
         w,
         rows(("mixer.Om",))[:, 0],
         rows(SURFACES),
+        rows(SWITCHING),
+        deviation,
         np.any((w <= 0) | (w >= FASTEST), axis=1),
         np.any(sines >= most, axis=1),
         None if answer.steps == flight.steps - 1 else (answer.steps + 1) * DT,

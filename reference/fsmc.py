@@ -16,6 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .controllers import Fields
+
 Array = NDArray[np.float64]
 Law = Callable[[float], float]
 
@@ -283,7 +285,8 @@ class Controller:
     q, dq : array (2,)
         Command filters of roll and pitch.
     said : dict
-        Of the last call: "s" (6,), "raw" (2,) the attitude asked for, "clipped" whether a sine was, "reference" (12,).
+        Of the last call: "s" (6,), "switching" (6,) the size of each switching term, "raw" (2,) the attitude asked for,
+        "clipped" whether a sine was, "reference" (12,).
     """
 
     vehicle: Vehicle = SET_A
@@ -349,8 +352,10 @@ class Controller:
         u2 = factor / b[1] * (-self.push(0, s1) - g.rate[0] * s1 - f1 - g.slope[0] * e2 + ddq[0])
         u3 = factor / b[2] * (-self.push(1, s2) - g.rate[1] * s2 - f2 - g.slope[1] * e4 + ddq[1])
         u4 = factor / b[3] * (-self.push(2, s3) - g.rate[2] * s3 - f3 - g.slope[2] * e6 + ddpsid)
+        surfaces = (s1, s2, s3, sx, sy, sz)
         self.said = {
-            "s": np.array([s1, s2, s3, sx, sy, sz]),
+            "s": np.array(surfaces),
+            "switching": np.array([abs(self.push(channel, s)) for channel, s in enumerate(surfaces)]),
             "raw": raw,
             "clipped": abs(alpha) > ANGLE_LIMIT or abs(beta) > ANGLE_LIMIT,
             "reference": np.array([q[0], dq[0], q[1], dq[1], psid, dpsid, xd, dxd, yd, dyd, zd, dzd]),
@@ -439,6 +444,19 @@ def trajectory(t: float, ramp: bool = False) -> Array:
     return np.array([x, -w * y, -(w**2) * x, y, w * x, -(w**2) * y, *z, math.pi / 4, 0.0, 0.0])
 
 
+def course(memory: Fields, inputs: Fields, params: Fields) -> tuple[bool, Fields, Fields]:
+    """Return the circle, the altitude and the yaw that are followed, by parameters; see `controllers.Formula`."""
+    real = memory["count"].dtype.type
+    t, w, r = real(DT) * memory["count"], params["frequency"], params["radius"]
+    turn = r * np.exp(1j * w * t)  # x + i y; each derivative turns it by a quarter and scales it by w
+    at, rate, acceleration = turn, 1j * w * turn, -(w**2) * turn
+    outputs: Fields = {"x": np.real(at), "rate_x": np.real(rate), "acceleration_x": np.real(acceleration)}
+    outputs |= {"y": np.imag(at), "rate_y": np.imag(rate), "acceleration_y": np.imag(acceleration)}
+    outputs |= {"z": params["altitude"] + params["climb"] * t, "rate_z": params["climb"], "acceleration_z": 0 * t}
+    outputs |= {"yaw": params["yaw"], "rate_yaw": 0 * t, "acceleration_yaw": 0 * t}
+    return False, {"count": memory["count"] + 1}, outputs
+
+
 def disturbances(
     steps: int,
     *,
@@ -493,8 +511,8 @@ class Scenario:
         What filter and law are made for; what flies.
     X, estimate : tuple of 12 float
         State and estimate at the start.
-    d, v : array (steps, 6), optional
-        See `disturbances`; default none.
+    d, v : array (steps, 6), (steps, rows), optional
+        See `disturbances`; default none. Of v the first columns are those of `rows`.
     ramp, literal, divided : bool
         See `trajectory` and `Controller`.
     printed_jacobian : bool
@@ -540,8 +558,10 @@ class Run:
         Speeds of the rotors.
     Om : array (steps,)
         Residual speed.
-    s : array (steps, 6)
-        Surfaces.
+    s, switching : array (steps, 6)
+        Surfaces, and the size of the switching term of each: of the fuzzy law k_hat of eq. (24).
+    deviation : array (steps, 12)
+        What the filter says of its own standard deviations; NaN without one.
     saturated, clipped : bool array (steps,)
         Whether a rotor was clipped; whether the sine of an angle asked for was.
     diverged : float or None
@@ -556,6 +576,8 @@ class Run:
     w: Array
     Om: Array
     s: Array
+    switching: Array
+    deviation: Array
     saturated: NDArray[np.bool_]
     clipped: NDArray[np.bool_]
     diverged: float | None
@@ -599,9 +621,9 @@ def simulate(scenario: Scenario) -> Run:
     v = np.zeros((n, 6)) if scenario.v is None else scenario.v
     rows = list(scenario.rows)
     move = runge_kutta if scenario.exact else euler
-    wide, narrow = (np.full((n, 12), np.nan) for _ in range(3)), (np.full((n, 4), np.nan) for _ in range(3))
-    (states, estimates, references), (u, applied, w) = wide, narrow
-    Om, s = np.full(n, np.nan), np.full((n, 6), np.nan)
+    wide, narrow = (np.full((n, 12), np.nan) for _ in range(4)), (np.full((n, 4), np.nan) for _ in range(3))
+    (states, estimates, references, deviation), (u, applied, w) = wide, narrow
+    Om, s, switching = np.full(n, np.nan), np.full((n, 6), np.nan), np.full((n, 6), np.nan)
     saturated, clipped = np.zeros(n, dtype=bool), np.zeros(n, dtype=bool)
     diverged, done = None, n
     for k in range(n):
@@ -612,6 +634,9 @@ def simulate(scenario: Scenario) -> Run:
         states[k], estimates[k] = X, seen
         u[k] = law(seen, trajectory(k * DT, scenario.ramp))
         references[k], s[k], clipped[k] = law.said["reference"], law.said["s"], law.said["clipped"]
+        switching[k] = law.said["switching"]
+        if observer is not None:
+            deviation[k] = np.sqrt(np.diag(observer.P))
         w[k], applied[k], law.Om, saturated[k] = mix(scenario.believed, u[k])
         Om[k] = law.Om
         X = move(scenario.plant, X, applied[k], Om[k], d[k])
@@ -620,7 +645,8 @@ def simulate(scenario: Scenario) -> Run:
             observer.correct(X[rows] + v[k][: len(rows)])
     at = slice(done)
     return Run(
-        states[at], estimates[at], references[at], u[at], applied[at], w[at], Om[at], s[at], saturated[at], clipped[at], diverged
+        states[at], estimates[at], references[at], u[at], applied[at], w[at], Om[at], s[at], switching[at], deviation[at],
+        saturated[at], clipped[at], diverged,
     )  # fmt: skip
 
 

@@ -228,6 +228,38 @@ def test_a_conditional_return_in_an_it_block_may_go_on(tmp_path, needs):
     assert [analysis.stack(name) for name in ("early", "either")] == [0, 0]
 
 
+RISCV = """
+    .option norvc
+    .text
+    .globl start
+    .type start, %function
+start:
+    lui t3, %hi(elsewhere)
+    .insn 4, 0x00055463
+    j far
+    addi a0, a0, 1
+far:
+    ret
+    .size start, . - start
+    .section .rodata
+    .zero 64
+elsewhere:
+    .word 0
+"""
+
+
+def test_what_is_to_be_linked_before_a_branch_is_not_where_the_branch_goes(tmp_path, needs):
+    """A conditional branch over a jump, as an assembler writes a long one (bgez a0, .+8, not relocated), right after an address of data (rv32)."""
+    needs("riscv64-unknown-elf-gcc")
+    toolchain = find_toolchain(TARGETS["rv32"])
+    (tmp_path / "long.s").write_text(RISCV)
+    toolchain.compiler.run([*TARGETS["rv32"].flags, "-c", "long.s", "-o", "long.o"], tmp_path)
+    image = read_image(tmp_path / "long.o")
+    start = image.function_named("start").address
+    assert [image.at(start + 4 * k).target for k in (1, 2)] == [start + 12, start + 16]
+    assert Analysis(image).instructions("start") == 4
+
+
 @pytest.mark.slow
 def test_the_bound_of_the_host_is_not_below_what_callgrind_counts(tmp_path, needs):
     """Each call of the shipped vectors, counted by itself; and the planted fault of a loop that never turns is seen."""
