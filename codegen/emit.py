@@ -380,6 +380,9 @@ class _Emitter:
             "sqrt": self.precision.function("sqrt"),
             "same": same,
             "limits": [self.precision.literal(item) for item in limits],
+            "floored": any(
+                item > 0 for item in hold.floor
+            ),  # no variance is below a floor of zero: it was refused before
             "floors": [self.precision.literal(hold.floor[i]) for block in hold.layout.parts for i in block],
             "ceilings": [self.precision.literal(hold.ceiling[i]) for block in hold.layout.parts for i in block],
             "diagonal": [

@@ -36,9 +36,8 @@ OPTIONS = [
 ]  # fmt: skip
 """NaN and infinity may arise on the way: they are judged, and must not be stored."""
 
-EFFORTS = {"judgement": (2000,), "straight": (100, 1000), "sequence": (3000,)}
-"""States that the analyser keeps apart, tried in this order, by what kind of function it is."""
-
+EFFORTS = {"judgement": (2000, 20000), "straight": (100, 1000), "sequence": (3000,)}
+"""States that the analyser keeps apart, by what kind of function it is: tried in this order while something stays open."""
 
 HELD = (Status.NOT_POSITIVE, Status.OVERFLOW, Status.OK, Status.CLAMPED)
 """What the function that holds a matrix within its limits may return."""
@@ -285,7 +284,8 @@ class _Prover:
             lines.append(f"    {name}_state_t state;")
             arguments = ["&state", *arguments]
         lines += [f"    {name}_params_t params;"] if self.params else []
-        lines += ["    struct", "    {", *self._members(entry.inputs), "    } in;"] if entry.inputs else []
+        if entry.inputs:
+            lines += self._own_struct(entry.inputs) if self.path else [f"    {name}_{entry.name}_in_t in;"]
         lines += [f"    {name}_{entry.name}_out_t out;"] if entry.outputs else []
         arguments += ["&params"] if "*params" in head else []
         arguments += [f"in.{signal.name}" for signal in entry.inputs]
@@ -300,13 +300,14 @@ class _Prover:
         lines += _accepted([*promised, *_answers("out", entry.outputs)])
         return self._task(entry, self._label(f"{entry.name}_core"), lines, self._stubs(entry))
 
-    def _members(self, signals: Sequence[Signal]) -> list[str]:
-        """Return the members of a struct; the header has none for what the core of a part is given."""
+    def _own_struct(self, signals: Sequence[Signal]) -> list[str]:
+        """Return a struct of the harness's own: the header has none for what the core of a part is given."""
         kinds = {Kind.REAL: self.precision.name, Kind.FLAG: "bool", Kind.COUNT: "uint32_t", Kind.STATUS: self.status}
-        return [
+        members = [
             f"        {kinds[signal.kind]} {signal.name}" + (f"[{signal.size}];" if signal.size > 1 else ";")
             for signal in signals
         ]
+        return ["    struct", "    {", *members, "    } in;"]
 
     def _given(self, entry: Entry) -> list[str]:
         """Return assignments to what a call is given."""
@@ -505,11 +506,13 @@ def analyse(
     return kept, ways
 
 
-def prove_task(block: Block, text: CText, task: Task, *, seconds: float = 900.0) -> CheckResult:
-    """Prove one function, with more effort where less does not do."""
+def prove_task(block: Block, text: CText, task: Task, *, seconds: float = 900.0) -> tuple[CheckResult, list[int]]:
+    """Prove one function, with more effort where less does not do; return also the efforts, in their order."""
     needed = {"accepted", "refused"} if "show_each" in task.harness else set()
     started, note, count = time.perf_counter(), "", 0
+    tried: list[int] = []
     for effort in EFFORTS[task.effort]:
+        tried.append(effort)
         try:
             properties, ways = analyse(block, text, task, effort, seconds=seconds)
         except subprocess.TimeoutExpired:
@@ -522,9 +525,9 @@ def prove_task(block: Block, text: CText, task: Task, *, seconds: float = 900.0)
         if not open_ones:
             if len(own) >= task.assertions and needed <= ways:
                 took = time.perf_counter() - started
-                return CheckResult(f"proof of {task.name}", True, calls=count, note=f"{took:.1f} s")
+                return CheckResult(f"proof of {task.name}", True, calls=count, note=f"{took:.1f} s"), tried
             note = f"{len(own)} of {task.assertions} assertions were reached; of the ways to return only {sorted(ways)}"
-    return CheckResult(f"proof of {task.name}", False, calls=count, note=note)
+    return CheckResult(f"proof of {task.name}", False, calls=count, note=note), tried
 
 
 def prove(block: Block, text: CText, names: Sequence[str] = (), *, seconds: float = 900.0) -> Findings:
@@ -544,7 +547,8 @@ def prove(block: Block, text: CText, names: Sequence[str] = (), *, seconds: floa
     Returns
     -------
     Findings
-        A check for each function; its calls are the properties that were looked at.
+        A check for each function; its calls are the properties that were looked at. Of those that are proved, the facts
+        have the properties (`proof`) and the states that were kept apart (`efforts`), in the order in which they were tried.
 
     Raises
     ------
@@ -555,7 +559,12 @@ def prove(block: Block, text: CText, names: Sequence[str] = (), *, seconds: floa
     """
     tasks = [task for task in proof_tasks(block, text) if not names or task.name in names]
     with ThreadPoolExecutor(max(1, os.cpu_count() or 1)) as pool:
-        checks = list(pool.map(lambda task: prove_task(block, text, task, seconds=seconds), tasks))
+        done = list(pool.map(lambda task: prove_task(block, text, task, seconds=seconds), tasks))
+    proved = [(task.name, check, tried) for task, (check, tried) in zip(tasks, done, strict=True) if check.passed]
     return Findings(
-        checks, {"proof": {task.name: check.calls for task, check in zip(tasks, checks, strict=True) if check.passed}}
+        [check for check, _ in done],
+        {
+            "proof": {name: check.calls for name, check, _ in proved},
+            "efforts": {name: tried for name, _, tried in proved},
+        },
     )

@@ -15,7 +15,8 @@ from ..symbolic.block import Block
 from . import exported, proof
 from .emit import CText
 from .exported import run_tool, tool
-from .proof import EFFORTS, OPTIONS, Task, proof_source, proof_tasks, prove
+from .findings import Findings
+from .proof import OPTIONS, Task, proof_source, proof_tasks, prove
 
 
 @dataclass(frozen=True)
@@ -28,17 +29,23 @@ class Proved:
         Of all that the proof rests on: see `digest_of`.
     properties : int
         How many properties were looked at.
+    efforts : list of int
+        How many states the analyser kept apart: tried in this order while something stayed open.
     seconds : float
         How long it took, on the machine that did it.
     """
 
     digest: str
     properties: int
+    efforts: list[int]
     seconds: float
 
 
 JUDGES: tuple[Any, ...] = (proof.analyse, proof.prove_task, proof.Property, exported.run_tool)
 """What calls the analyser and judges its answer; what makes the harness is seen in the harness."""
+
+LONGEST = 3600.0
+"""Seconds that an analysis may take when it is recorded: it is done once, and the machine may be busy."""
 
 Record = Mapping[str, Mapping[str, Proved]]
 """Block -> function -> proof."""
@@ -56,15 +63,15 @@ def analyser() -> str:
     return run_tool([tool("frama-c", "frama-c-base"), "-version"], Path("."), seconds=60.0).stdout.strip()
 
 
-def digest_of(block: Block, text: CText, task: Task) -> str:
+def digest_of(block: Block, text: CText, task: Task, efforts: list[int]) -> str:
     """Return the digest of all that the proof of a function rests on.
 
-    That is the C and the harness that the analyser reads, what is asked of it, its version, and the Python that calls it
-    and judges its answer.
+    That is the C and the harness that the analyser reads, what is asked of it, how many states it kept apart, its version,
+    and the Python that calls it and judges its answer. What another function needed is no part of it.
     """
     parts = [
-        *(text.header, proof_source(block, text, task), str(task.assertions), task.effort),
-        *(str(OPTIONS), str(EFFORTS), analyser(), *map(inspect.getsource, JUDGES)),
+        *(text.header, proof_source(block, text, task), str(task.assertions), str(efforts)),
+        *(str(OPTIONS), analyser(), *map(inspect.getsource, JUDGES)),
     ]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()
 
@@ -83,7 +90,7 @@ def not_on_record(block: Block, text: CText, record: Record) -> list[str]:
     return [
         task.name
         for task in proof_tasks(block, text)
-        if task.name not in known or known[task.name].digest != digest_of(block, text, task)
+        if task.name not in known or known[task.name].digest != digest_of(block, text, task, known[task.name].efforts)
     ]
 
 
@@ -101,10 +108,13 @@ def record_proof(block: Block, text: CText, record: Record) -> tuple[dict[str, P
     tasks = {task.name: task for task in proof_tasks(block, text)}
     found = {name: item for name, item in record.get(block.name, {}).items() if name in tasks and name not in missing}
     faults = []
-    for check in prove(block, text, sorted(missing)).checks if missing else []:
+    done = prove(block, text, sorted(missing), seconds=LONGEST) if missing else Findings([])
+    for check in done.checks:
         name = check.name.removeprefix("proof of ")
         if check.passed:
-            found[name] = Proved(digest_of(block, text, tasks[name]), check.calls, float(check.note.removesuffix(" s")))
+            efforts = done.facts["efforts"][name]
+            digest = digest_of(block, text, tasks[name], efforts)
+            found[name] = Proved(digest, check.calls, efforts, float(check.note.removesuffix(" s")))
         else:
             faults.append(f"{name}: {check.note}")
     return {name: found[name] for name in tasks if name in found}, faults

@@ -60,7 +60,9 @@ def reachable(block: Block) -> frozenset[Feature]:
                 wanted.add(("ran", label, trail, statement.status.name))
             elif isinstance(statement, HoldVariances):
                 wanted.add(("ran", label, trail, CLOSELY))
-                outcomes = [HELD[0], HELD[3], Status.NOT_POSITIVE.name]
+                outcomes = [HELD[0], Status.NOT_POSITIVE.name]
+                if any(low > 0 for low in statement.floor):  # nothing that is not negative is below a floor of zero
+                    outcomes.append(HELD[3])
                 if statement.layout.count > statement.size:  # one variance alone has nothing beside it
                     outcomes += [HELD[1], HELD[2], Status.OVERFLOW.name]
                 wanted |= {("held", label.rpartition(".")[0], outcome) for outcome in outcomes}

@@ -24,9 +24,9 @@ from plantc.examples.fsmc_quadrotor import (
     FASTEST,
     READ,
     SET_A,
-    SETS,
     STATES,
     THRUST_FACTOR,
+    VEHICLES,
     ekf,
     hover,
     mixer,
@@ -204,16 +204,21 @@ def seen_by(name: str) -> str:
 # -- what it follows --------------------------------------------------------------------------------------------------
 
 
-def trajectory(name: str = "trajectory") -> Block:
+def trajectory(*, ramp: bool = False, name: str = "trajectory") -> Block:
     """Return the reference of section 5 as a block that counts its steps: circle, altitude and yaw with their derivatives.
 
-    `frequency`, `radius`, `altitude`, `climb` and `yaw` are run-time parameters.
+    Parameters
+    ----------
+    ramp : bool
+        Whether the altitude is 5 t instead of 5; `altitude` and `climb` are run-time parameters.
+    name : str
+        Of the block.
     """
     block = Block(name, doc="a circle at an altitude that may climb, and a yaw, with first and second derivatives")
     w = block.parameter("frequency", pi / 4, unit="rad/s", range=(0, 10), doc="of the circle")
     radius = block.parameter("radius", 0.5, unit="m", range=(0, 10))
-    altitude = block.parameter("altitude", 5.0, unit="m", range=(-100, 100), doc="at the start")
-    climb = block.parameter("climb", 0.0, unit="m/s", range=(-10, 10))
+    altitude = block.parameter("altitude", 0.0 if ramp else 5.0, unit="m", range=(-100, 100), doc="at the start")
+    climb = block.parameter("climb", 5.0 if ramp else 0.0, unit="m/s", range=(-10, 10))
     yaw = block.parameter("yaw", pi / 4, unit="rad", range=(-3.2, 3.2))
     # the first step of a loop is that of the first reading, one step after the start
     count = block.memory("count", initial=1.0, range=(0, 1e7), doc="steps since the start")
@@ -249,7 +254,10 @@ def led(controller: Block, follows: Block, name: str = "led") -> Block:
 
 
 @cache
-def loop(law: str = "FSMC", which: str = "A", *, estimated: bool = True, read: tuple[str, ...] = READ) -> ClosedLoop:
+def loop(
+    law: str = "FSMC", which: str = "A", *, estimated: bool = True, ramp: bool = False, believed: str = "",
+    read: tuple[str, ...] = READ, shaken: bool = False,
+) -> ClosedLoop:  # fmt: skip
     """Return the whole scheme with a vehicle whose mass and inertias are parameters, as one block that is compiled.
 
     Parameters
@@ -257,17 +265,25 @@ def loop(law: str = "FSMC", which: str = "A", *, estimated: bool = True, read: t
     law : str
         One of `LAWS`.
     which : str
-        "A" or "B", of plant, filter and law.
+        Of plant, filter and law: a key of `fsmc_quadrotor.VEHICLES`.
     estimated : bool
         Whether the law is given the estimate; else the true state.
+    ramp : bool
+        See `trajectory`.
+    believed : str
+        Of filter and law, where it is another than `which`.
     read : tuple of str
         The states that are read.
+    shaken : bool
+        Whether noise may be added to each state in each step, inputs ``plant_<state>_noise``.
     """
-    values = SETS[which]
-    own = ("mass", "inertia_x", "inertia_y", "inertia_z")
+    values, own = VEHICLES[which], ("mass", "inertia_x", "inertia_y", "inertia_z")
     truth = sampled(vehicle(values=values, tunable=own, disturbed=True, seen=not estimated, read=read))
-    pilot = autopilot(law, values, read=read) if estimated else control_law(law, values)
-    controller = led(pilot, trajectory())
+    if shaken:
+        truth.step_noise(dict.fromkeys(STATES, 1e-2))
+    model = VEHICLES[believed or which]
+    pilot = autopilot(law, model, read=read) if estimated else control_law(law, model)
+    controller = led(pilot, trajectory(ramp=ramp))
     readings: dict[str, str] = {}
     if not estimated:
         for signal in controller.entries["step"].inputs:
@@ -291,19 +307,23 @@ class Flight:
     ----------
     steps : int
         How many, the first at t = 0.
-    law, which, estimated, read
+    law, which, estimated, ramp, read
         See `loop`.
-    ramp : bool
-        Whether the altitude to follow is 5 t (Fig. 13), not 5.
     tuning : str
         Of the filter.
     X, estimate : tuple of 12 float
         State and estimate at the start.
     d, v : array (steps, 6), optional
-        Accelerations, and noise of the reading one step later; see `reference.fsmc.disturbances`. What is not read has no
-        noise.
+        Accelerations, and noise of the reading one step later; see `reference.fsmc.disturbances`. Of `v` those columns are
+        taken that are read.
     params : dict
         Other parameters of the loop, such as ``plant.mass``.
+    believed : str
+        See `loop`.
+    read : tuple of str
+        The states that are read.
+    w : array (steps, 12), optional
+        What is added to the states in each step.
     """
 
     steps: int = 10000
@@ -316,18 +336,17 @@ class Flight:
     estimate: tuple[float, ...] = (0.0,) * 12
     d: Array | None = None
     v: Array | None = None
-    read: tuple[str, ...] = READ
     params: Mapping[str, Any] | None = None
-
-    @property
-    def changed(self) -> dict[str, Any]:
-        """The parameters that are changed, by part: `ramp`, then `params`."""
-        climbing = {"trajectory.altitude": 0.0, "trajectory.climb": 5.0} if self.ramp else {}
-        return {**climbing, **(self.params or {})}
+    believed: str = ""
+    read: tuple[str, ...] = READ
+    w: Array | None = None
 
     def loop(self) -> ClosedLoop:
         """Return the loop that is flown; the same one for all flights that differ in numbers only."""
-        return loop(self.law, self.which, estimated=self.estimated, read=self.read)
+        return loop(
+            self.law, self.which, estimated=self.estimated, ramp=self.ramp, believed=self.believed, read=self.read,
+            shaken=self.w is not None,
+        )  # fmt: skip
 
 
 @cache
@@ -338,12 +357,12 @@ def compiled(ring: ClosedLoop) -> Batch:
 
 @cache
 def _first(law: str, which: str) -> NativeView:
-    return NativeView(control_law(law, SETS[which]))
+    return NativeView(control_law(law, VEHICLES[which]))
 
 
 @cache
-def _course() -> NativeView:
-    return NativeView(trajectory())
+def _reference(ramp: bool) -> NativeView:
+    return NativeView(trajectory(ramp=ramp))
 
 
 def _own(params: Mapping[str, Any], part: str) -> dict[str, Any]:
@@ -366,8 +385,8 @@ def first_step(flight: Flight) -> tuple[dict[str, Any], dict[str, Any]]:
     The loop begins with the plant moved and read. What is applied until then, and where the command filters are after it, are
     parameters of the loop.
     """
-    view, follows = _first(flight.law, flight.which), _course()
-    given = flight.changed
+    view, follows = _first(flight.law, flight.believed or flight.which), _reference(flight.ramp)
+    given = flight.params or {}
     seen = dict(zip(STATES, flight.estimate if flight.estimated else flight.X, strict=True))
     course = follows.params(**_own(given, "trajectory"), count_0=0.0)
     wanted = follows.call("step", follows.init(course), follows.inputs("step", {}), course).outputs
@@ -411,7 +430,7 @@ def settings(flight: Flight) -> dict[str, Any]:
         "trajectory": "controller.trajectory",
         "plant": "plant",
     }
-    for key, value in flight.changed.items():
+    for key, value in (flight.params or {}).items():
         part, _, own = key.partition(".")
         answer[f"{places[part]}.{own}"] = value
     return answer
@@ -428,6 +447,22 @@ SURFACES = (
     "attitude.surface_roll", "attitude.surface_pitch", "attitude.surface_yaw", "position.surface_x", "position.surface_y",
     "altitude.surface_z",
 )  # fmt: skip
+SWITCHING = tuple(name.replace("surface", "switching_gain") for name in SURFACES)
+
+
+def _inputs(flight: Flight, batch: Batch, held: Mapping[str, float]) -> Any:
+    """Return the inputs of the loop: what is constant, and the disturbances."""
+    inputs = batch.inputs(flight.steps - 1)
+    for name, value in held.items():
+        inputs[name] = value
+    if flight.d is not None:
+        inputs["plant_angular_disturbance"], inputs["plant_linear_disturbance"] = flight.d[:-1, :3], flight.d[:-1, 3:]
+    if flight.v is not None:
+        inputs["plant_pose_noise"] = flight.v[:-1, [READ.index(state) for state in flight.read]]
+    for k, state in enumerate(STATES if flight.w is not None else ()):
+        assert flight.w is not None
+        inputs[f"plant_{state}_noise"] = flight.w[:-1, k]
+    return inputs
 
 
 def fly(flight: Flight) -> Run:
@@ -448,14 +483,7 @@ def fly(flight: Flight) -> Run:
     ring = flight.loop()
     batch = compiled(ring)
     _, first = first_step(flight)
-    inputs = batch.inputs(flight.steps - 1)
-    for name, value in ring.held.items():
-        inputs[name] = value
-    if flight.d is not None:
-        inputs["plant_angular_disturbance"], inputs["plant_linear_disturbance"] = flight.d[:-1, :3], flight.d[:-1, 3:]
-    if flight.v is not None:
-        inputs["plant_pose_noise"] = flight.v[:-1, [READ.index(state) for state in flight.read]]
-    answer = batch.run(inputs, batch.params(settings(flight)))
+    answer = batch.run(_inputs(flight, batch, ring.held), batch.params(settings(flight)))
 
     def column(record: Any, path: str) -> Any:
         for piece in path.split("."):
@@ -474,9 +502,14 @@ def fly(flight: Flight) -> Run:
         return np.vstack([start, np.column_stack([column(answer.memory, f"{prefix}.{state}") for state in STATES])])
 
     X = states("plant", flight.X)
+    deviation = np.full((len(X), 12), np.nan)
+    if flight.estimated:
+        packed = np.cumsum([0, *range(12, 1, -1)])  # where the diagonal lies in the upper triangle by rows
+        deviation[0] = 1.0
+        deviation[1:] = np.sqrt(answer.memory["controller"]["pilot"]["estimator"]["covariance"][:, packed])
     w = np.vstack([first["mixer.speed"], column(answer.outputs, f"{pilot}.mixer.speed")])
     sines = np.abs(rows(("allocation.sine_roll", "allocation.sine_pitch")))
-    most = float(flight.changed.get("law.allocation.limit", STEEPEST))
+    most = float((flight.params or {}).get("law.allocation.limit", STEEPEST))
     return Run(
         X,
         states("controller.pilot.estimator", flight.estimate) if flight.estimated else X,
@@ -486,6 +519,8 @@ def fly(flight: Flight) -> Run:
         w,
         rows(("mixer.Om",))[:, 0],
         rows(SURFACES),
+        rows(SWITCHING),
+        deviation,
         np.any((w <= 0) | (w >= FASTEST), axis=1),
         np.any(sines >= most, axis=1),
         None if answer.steps == flight.steps - 1 else (answer.steps + 1) * DT,

@@ -62,7 +62,10 @@ SET_B = SET_A | {
     "drag_y": 5.567e-4,
     "drag_z": 6.354e-4,
 }
+SET_PRINTED = SET_B | {"mass": 0.4, **{f"drag_{axis}": SET_B[f"drag_{axis}"] * 0.4 / 0.486 for axis in "xyz"}}
+"""The mass of the table with the coefficients that are printed under it: those of set B, to the digits given."""
 SETS = {"A": SET_A, "B": SET_B}
+VEHICLES = SETS | {"printed": SET_PRINTED}
 
 THRUST_FACTOR, DRAG_FACTOR, FASTEST = 2.9842e-5, 3.2320e-7, 400.0
 """N s^2/rad^2, N m s^2/rad^2, and the largest speed of a rotor in rad/s: the same in both sets."""

@@ -94,7 +94,7 @@ def tracks(degree: int) -> Exosystem:
     return compose([polynomial(name, degree) for name in references]).sampled(T, "euler")
 
 
-def regulator(degree: int, name: str, *, steady: bool = False, **options: Any) -> Block:
+def regulator(degree: int, name: str, *, steady: bool = False, together: bool = False, **options: Any) -> Block:
     """Return the regulator whose exosystem is a Kalman filter of a polynomial of a degree for each reference.
 
     Parameters
@@ -105,15 +105,19 @@ def regulator(degree: int, name: str, *, steady: bool = False, **options: Any) -
         Of the Block.
     steady : bool
         Whether the filter has the gain at which it arrives from the start, and no covariance.
+    together : bool
+        Whether the four readings come or are missing together: the covariance of one is that of all. Else each has a flag.
     **options
         As for `plantc.symbolic.output_regulator.output_regulator`.
     """
+    observed = tracks(degree) if together else polynomial("reading", degree).sampled(T, "euler")
     observer = kalman_exosystem(
-        polynomial("reading", degree).sampled(T, "euler"),
+        observed,
         process_variance=process_variance,
         measurement_variance=measurement_variance,
-        ranges={"reading": reach},
+        ranges=dict.fromkeys(observed.signals, reach),
         steady=steady,
+        together=together,
         name="generator",
     )
     return output_regulator(
@@ -121,7 +125,7 @@ def regulator(degree: int, name: str, *, steady: bool = False, **options: Any) -
         set_point,
         gain,
         francis(near, tracks(degree)),
-        dict.fromkeys(references, observer),
+        observer if together else dict.fromkeys(references, observer),
         name=name,
         **options,
     )
@@ -150,6 +154,8 @@ def estimated_regulator(degree: int, name: str) -> Block:
     return regulator(degree, name, estimator=estimator, tunable=False)
 
 
-quadrotor_regulator = regulator(6, "quadrotor_regulator", tunable=False)  # 28 states of the exosystem
+# the exosystem of the first three has 28 states
+quadrotor_regulator = regulator(6, "quadrotor_regulator", tunable=False)
+quadrotor_together_regulator = regulator(6, "quadrotor_together_regulator", together=True, tunable=False)
 quadrotor_steady_regulator = regulator(6, "quadrotor_steady_regulator", steady=True, tunable=False)
 quadrotor_high_gain_regulator = high_gain_regulator("quadrotor_high_gain_regulator", tunable=False)

@@ -25,6 +25,12 @@ from .examples.quadrotor_controllers import (
     quadrotor_kf_controller,
 )
 from .examples.quadrotor_ekf import quadrotor_ekf, quadrotor_kf
+from .examples.quadrotor_regulator import (
+    quadrotor_high_gain_regulator,
+    quadrotor_regulator,
+    quadrotor_steady_regulator,
+    quadrotor_together_regulator,
+)
 from .examples.quadrotor_ud import quadrotor_ud
 from .symbolic import Block
 
@@ -45,7 +51,17 @@ CONTROLLERS: list[tuple[Block, str]] = [
 ]
 """Compositions of a filter and a feedback. CI looks for drift, and whether their proofs are on record; no audit."""
 
-EXAMPLES = PARTS + CONTROLLERS
+REGULATORS: list[tuple[Block, str]] = [
+    (quadrotor_regulator, "float"),
+    (quadrotor_together_regulator, "float"),
+    (quadrotor_steady_regulator, "float"),
+    (quadrotor_high_gain_regulator, "float"),
+]
+"""Observers of four references and a feedback: with a flag for each reading, with one for all, and two that are cheaper.
+
+CI does with them what it does with controllers, and runs the second on every target."""
+
+EXAMPLES = PARTS + CONTROLLERS + REGULATORS
 """Block and precision of everything under `generated_c/`."""
 
 

@@ -15,6 +15,7 @@ STUDIES = {
     "meda2018": "plantc.examples.meda2018",
     "regulation2023": "plantc.examples.regulation2023",
     "jump_matrix": "plantc.examples.jump_matrix",
+    "fsmc2018": "plantc.examples.fsmc2018",
 }
 """Name -> module; its ``study(runs=..., seed=..., *, on, progress)`` returns a `plantc.simulation.StudyResult` of that name."""
 

@@ -312,10 +312,16 @@ def process_covariance(model: Model, x: Array, u: Array, p: Array, dt: Any, para
         W = G @ S @ G.T
         AW = A @ W
         Q = W * dt + (AW + AW.T) * (dt * dt / 2) + (AW @ A.T) * (dt * dt * dt / 3)
+    return with_step_noise(model, Q, params)
+
+
+def with_step_noise(model: Model, Q: Array, params: Mapping[str, Array]) -> Array:
+    """Return Q, symmetric, with the noise added that states have per step."""
+    total = np.array((Q + Q.T) / 2)
     for state, _, at in model.places:
         if state.name in model.step_variances:
-            Q[at, at] += np.diag(params[f"variance_step_{state.name}"])
-    return np.asarray((Q + Q.T) / 2)
+            total[at, at] += np.diag(params[f"variance_step_{state.name}"])
+    return total
 
 
 def van_loan(A: Array, W: Array, dt: float) -> Array:

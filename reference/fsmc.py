@@ -285,7 +285,8 @@ class Controller:
     q, dq : array (2,)
         Command filters of roll and pitch.
     said : dict
-        Of the last call: "s" (6,), "raw" (2,) the attitude asked for, "clipped" whether a sine was, "reference" (12,).
+        Of the last call: "s" (6,), "switching" (6,) the size of each switching term, "raw" (2,) the attitude asked for,
+        "clipped" whether a sine was, "reference" (12,).
     """
 
     vehicle: Vehicle = SET_A
@@ -351,8 +352,10 @@ class Controller:
         u2 = factor / b[1] * (-self.push(0, s1) - g.rate[0] * s1 - f1 - g.slope[0] * e2 + ddq[0])
         u3 = factor / b[2] * (-self.push(1, s2) - g.rate[1] * s2 - f2 - g.slope[1] * e4 + ddq[1])
         u4 = factor / b[3] * (-self.push(2, s3) - g.rate[2] * s3 - f3 - g.slope[2] * e6 + ddpsid)
+        surfaces = (s1, s2, s3, sx, sy, sz)
         self.said = {
-            "s": np.array([s1, s2, s3, sx, sy, sz]),
+            "s": np.array(surfaces),
+            "switching": np.array([abs(self.push(channel, s)) for channel, s in enumerate(surfaces)]),
             "raw": raw,
             "clipped": abs(alpha) > ANGLE_LIMIT or abs(beta) > ANGLE_LIMIT,
             "reference": np.array([q[0], dq[0], q[1], dq[1], psid, dpsid, xd, dxd, yd, dyd, zd, dzd]),
@@ -555,8 +558,10 @@ class Run:
         Speeds of the rotors.
     Om : array (steps,)
         Residual speed.
-    s : array (steps, 6)
-        Surfaces.
+    s, switching : array (steps, 6)
+        Surfaces, and the size of the switching term of each: of the fuzzy law k_hat of eq. (24).
+    deviation : array (steps, 12)
+        What the filter says of its own standard deviations; NaN without one.
     saturated, clipped : bool array (steps,)
         Whether a rotor was clipped; whether the sine of an angle asked for was.
     diverged : float or None
@@ -571,6 +576,8 @@ class Run:
     w: Array
     Om: Array
     s: Array
+    switching: Array
+    deviation: Array
     saturated: NDArray[np.bool_]
     clipped: NDArray[np.bool_]
     diverged: float | None
@@ -614,9 +621,9 @@ def simulate(scenario: Scenario) -> Run:
     v = np.zeros((n, 6)) if scenario.v is None else scenario.v
     rows = list(scenario.rows)
     move = runge_kutta if scenario.exact else euler
-    wide, narrow = (np.full((n, 12), np.nan) for _ in range(3)), (np.full((n, 4), np.nan) for _ in range(3))
-    (states, estimates, references), (u, applied, w) = wide, narrow
-    Om, s = np.full(n, np.nan), np.full((n, 6), np.nan)
+    wide, narrow = (np.full((n, 12), np.nan) for _ in range(4)), (np.full((n, 4), np.nan) for _ in range(3))
+    (states, estimates, references, deviation), (u, applied, w) = wide, narrow
+    Om, s, switching = np.full(n, np.nan), np.full((n, 6), np.nan), np.full((n, 6), np.nan)
     saturated, clipped = np.zeros(n, dtype=bool), np.zeros(n, dtype=bool)
     diverged, done = None, n
     for k in range(n):
@@ -627,6 +634,9 @@ def simulate(scenario: Scenario) -> Run:
         states[k], estimates[k] = X, seen
         u[k] = law(seen, trajectory(k * DT, scenario.ramp))
         references[k], s[k], clipped[k] = law.said["reference"], law.said["s"], law.said["clipped"]
+        switching[k] = law.said["switching"]
+        if observer is not None:
+            deviation[k] = np.sqrt(np.diag(observer.P))
         w[k], applied[k], law.Om, saturated[k] = mix(scenario.believed, u[k])
         Om[k] = law.Om
         X = move(scenario.plant, X, applied[k], Om[k], d[k])
@@ -635,7 +645,8 @@ def simulate(scenario: Scenario) -> Run:
             observer.correct(X[rows] + v[k][: len(rows)])
     at = slice(done)
     return Run(
-        states[at], estimates[at], references[at], u[at], applied[at], w[at], Om[at], s[at], saturated[at], clipped[at], diverged
+        states[at], estimates[at], references[at], u[at], applied[at], w[at], Om[at], s[at], switching[at], deviation[at],
+        saturated[at], clipped[at], diverged,
     )  # fmt: skip
 
 

@@ -24,6 +24,7 @@ from .discretisation import (
     process_covariance,
     retract,
     transition,
+    with_step_noise,
     wrapped,
     wrapped_angle,
 )
@@ -198,7 +199,7 @@ class Filter:
         x_after, F = transition(model, x, u, self.p, dt)
         if model.error_step is not None:
             F, G = model.error_step(x, u, self.p, memory, inputs)
-            Q = G @ strength(model.noises, self.params, self.precision) @ G.T
+            Q = with_step_noise(model, G @ strength(model.noises, self.params, self.precision) @ G.T, self.params)
         status, P = self.held(F @ P @ F.T + self.accepted_noise(Q))
         self.judge(P, x_after)
         kept = {item.name: np.array(inputs[item.name], dtype=self.precision).ravel() for item in model.carried}

@@ -6,7 +6,18 @@ import math
 
 from ..reference import sliding_mode as reference
 from .block import Block
-from .components import Ends, ends_of, finish, middle_of, rounded_up, seconds, spread_range, uniform, wandering
+from .components import (
+    Ends,
+    ends_of,
+    finish,
+    is_number,
+    middle_of,
+    rounded_up,
+    seconds,
+    spread_range,
+    uniform,
+    wandering,
+)
 from .errors import ModelError
 
 LEAST_DAMPING, MOST_DAMPING = 0.5, 2.0
@@ -74,7 +85,7 @@ def command_filter(
     """
     ends, step = ends_of(name, range), seconds(name, dt)
     for what, value in (("frequency", frequency), ("damping", damping)):
-        if not (isinstance(value, (int, float)) and math.isfinite(value) and value > 0):
+        if not (is_number(value) and value > 0):
             raise ModelError(f"{name}: the {what} is {value!r}; give a positive number")
     limit = highest_frequency(step, damping)
     if frequency >= limit:

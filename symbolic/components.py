@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -75,6 +76,11 @@ def ends_of(owner: str, given: Any) -> Ends:
     """Return a range as two floats; the default is that of every signal."""
     low, high = make_range(owner, "the signal", given, (-WIDE, WIDE), 1)
     return low[0], high[0]
+
+
+def is_number(value: object) -> bool:
+    """Whether a value is one finite real number, Python's or NumPy's."""
+    return isinstance(value, Real) and math.isfinite(value)
 
 
 def seconds(owner: str, dt: Any) -> float:

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..reference.fuzzy import Corners, Fuzzy, area_and_moment, midpoints
 from .block import Block
-from .components import Ends, finish, wandering
+from .components import Ends, finish, is_number, wandering
 from .errors import ModelError, whole
 from .names import check_name, check_unique
 from .piecewise import maximum, minimum, saturated
@@ -270,7 +270,7 @@ class FuzzySystem:
                     )
             sides.append(labels)
         weight = given[2] if len(given) == 3 else 1.0
-        if not isinstance(weight, (int, float)) or not 0 < weight <= 1:
+        if not is_number(weight) or not 0 < weight <= 1:
             raise ModelError(
                 f"FuzzySystem: the weight of the rule {given!r} is {weight!r}; give more than 0 and at most 1"
             )
@@ -389,6 +389,20 @@ class FuzzySystem:
             self.rules, self.join, self.defuzzify, self.implication, self.aggregation, self.points,
         )  # fmt: skip
 
+    def _spoken(self) -> list[str]:
+        """Return sets and rules as sentences, for the header."""
+        lines = []
+        for item in (*self.inputs, *self.outputs):
+            lines += [f"{item.name} is {own.label}: {_shape(own.corners)}" for own in item.sets]
+        for labels, then, weight in self.rules:
+            asked = [
+                f"{item.name} is {label}" for item, label in zip(self.inputs, labels, strict=True) if label is not None
+            ]
+            said = [f"{item.name} is {label}" for item, label in zip(self.outputs, then, strict=True)]
+            more = f" (weight {weight:g})" if weight < 1 else ""
+            lines.append(f"if {' and '.join(asked) or 'anything'} then {' and '.join(said)}{more}")
+        return lines
+
     def block(self, name: str, *, ranges: Mapping[str, Ends] | None = None, doc: str = "") -> Block:
         """Return the system as a Block: entry `step`, no memory, no parameters (sets and rules are folded).
 
@@ -420,6 +434,7 @@ class FuzzySystem:
             },
             doc="The outputs that the rules give.",
         )  # fmt: skip
+        block.notes = self._spoken()
         near = {}
         for item, symbol in zip(self.inputs, taken, strict=True):
             (low, high), signal = item.range, symbol.signal
@@ -432,6 +447,16 @@ def centre_of(corners: Corners) -> float:
     """Return the centre of gravity of a set; of a singleton, where it is."""
     area, moment = area_and_moment(corners, 1.0)
     return float(moment / area) if area > 0 else corners[0]
+
+
+def _shape(corners: Corners) -> str:
+    """Return a set in words."""
+    a, b, c, d = corners
+    if a == d:
+        return f"{a:g}"
+    rises = "" if math.isinf(a) else f"rises from {a:g} to {b:g}"
+    falls = "" if math.isinf(d) else f"falls from {c:g} to {d:g}"
+    return ", ".join(item for item in (rises, falls) if item) or "everywhere"
 
 
 def _check_labels(name: str, sets: Sequence[FuzzySet]) -> None:

@@ -96,6 +96,29 @@ class JumpModel:
             truth._books.sensors.append(Sensor(signal, ca.SX(state.symbol), symbol, None, False, None, signal.doc))
         return truth
 
+    @property
+    def one_step(self) -> Plant:
+        """The same map for the plant's own states: s+ = Phi_ss s + Phi_sn phi(s) + Gam_s u + Psi_s w (sec. 8).
+
+        From a state whose nonlinearities fit it moves as `plant` does, but that an input or noise inside a nonlinearity is that
+        of the start of the step. Its extended Kalman filter linearises phi at the corrected estimate, not at the projected one.
+        """
+        plant = copy.copy(self.plant)
+        names = {state.signal.name for state in self._clamp_states()}
+        kept, start = [], 0
+        for state in self.plant.states:
+            if state.signal.name not in names:
+                at = slice(start, start + state.signal.size)
+                kept.append(replace(state, at=at, error_at=at))
+                start = at.stop
+        plant._books = replace(self.plant._books, states=kept)
+        plant.independent = None
+        plant.step_variances = {key: value for key, value in self.plant.step_variances.items() if key not in names}
+        following = ca.substitute(self.projection, self.plant.x, self.J)
+        places = {state.signal.name: state.at for state in self.plant.states}
+        plant._dynamics = {state.signal.name: following[places[state.signal.name]] for state in kept}
+        return plant
+
     def point(self, values: Mapping[Any, Any] | None = None) -> dict[str, Any]:
         """Return a point of the discrete plant: state or input (or its name) -> value, nonlinearities at their values there.
 
@@ -193,6 +216,11 @@ class _Construction:
         units: Mapping[str, str],
         ranges: Mapping[str, tuple[Any, Any]],
     ):
+        if not isinstance(nonlinearities, Mapping):
+            raise ModelError(
+                f"{plant.name}: the nonlinearities are given as {type(nonlinearities).__name__}; give a dictionary, name -> "
+                "subexpression"
+            )
         if plant.is_discrete:
             raise ModelError(
                 f"{plant.name}: the jump matrix technique discretises a plant itself, and this one is discrete; give it the "
@@ -382,7 +410,7 @@ class _Construction:
         """Make the copy a discrete plant."""
         plant, original = self.plant, self.original
         converted = {noise.signal.name: noise for noise in noises}
-        plant.dt, plant.dt_symbol = self.dt, ca.SX(self.dt)
+        plant.dt, plant.dt_symbol, plant.step_variances = self.dt, ca.SX(self.dt), {}
         plant._books = replace(
             plant._books, noises=[converted.get(noise.signal.name, noise) for noise in original.noises]
         )
@@ -406,14 +434,14 @@ def jump_simulation(
         State or input -> nominal value: default of the initial state, and where the test traces stay. Nonlinearities that are
         left out follow from it.
     name, doc : str, optional
-        Default name ``<plant>_jump_simulation``.
+        Of the block; default name ``<plant>_jump_simulation``.
 
     Returns
     -------
     Block
         As `simulated_plant` gives it: entries `init` and `step`.
     """
-    plant = model.plant
+    plant = _checked(model).plant
     title = doc or f'The plant "{plant.name}" by the jump matrix technique, simulated: every noise is an input'
     title_name = name or f"{plant.name}_jump_simulation"
     block = simulated_plant(plant, around=model.point(around), name=title_name, doc=title)
@@ -470,7 +498,7 @@ def jump_matrix_estimator(
     ModelError
         If a choice is not known, `covariance_transition` has another shape, or as by `extended_kalman_filter`.
     """
-    plant = model.plant
+    plant = _checked(model).plant
     if a not in get_args(Choice):
         raise ModelError(f"{plant.name}: a is {a!r}; take one of {', '.join(map(repr, get_args(Choice)))}")
     if not isinstance(initial_variance, Mapping):
@@ -510,11 +538,19 @@ _NOTES: dict[str, str] = {
 
 
 def _integrator(model: JumpModel) -> str:
-    names = ", ".join(model.clamps)
-    held = (
-        f"{names} held over the step, the rest exact: a first-order exponential integrator" if names else "Exact step"
-    )
-    return f"{held[0].upper()}{held[1:]}." if not names else f"{held}."
+    if not model.clamps:
+        return "The step is exact."
+    return f"{', '.join(model.clamps)} held over the step, the rest exact: a first-order exponential integrator."
+
+
+def _checked(model: Any) -> JumpModel:
+    """Return a jump model; refuse anything else."""
+    if not isinstance(model, JumpModel):
+        raise ModelError(
+            f"a {type(model).__name__} is given where a jump model is needed; give what jump_model(plant, {{name: subexpression}}, "
+            "dt) returns"
+        )
+    return model
 
 
 def _error_step(model: JumpModel, a: Choice, transition: Any) -> CovarianceStep:

@@ -323,7 +323,7 @@ class Plant:
             raise ModelError(
                 f"{self.name}: no dynamics for the state(s) {', '.join(map(repr, missing))}; add them to dynamics({{...}})"
             )
-        self._dynamics, self.dynamics_sources = given, places
+        self._dynamics, self.dynamics_sources, self.independent = given, places, None
         self._check_noise_kinds()
 
     def sensor(

@@ -12,8 +12,7 @@ import numpy as np
 
 from ..reference import sliding_mode as reference
 from .block import Block
-from .components import Calls, Ends, finish, middle_of, rounded_up
-from .derivation import name_of
+from .components import Calls, Ends, finish, is_number, middle_of, rounded_up
 from .errors import ModelError
 from .expressions import equation_text, numpy_callable
 from .fuzzy import FuzzySystem
@@ -28,6 +27,9 @@ LARGEST = 1.0e3
 
 NEAR = 1.0
 """How far from zero the nominal trace goes, where the range of a state has room."""
+
+MOST_TURNED = 1000.0
+"""Range of the reference of an angle, rad: its error is wrapped."""
 
 SAMPLES = 2001
 """Points at which a fuzzy switching term is looked at for its sign."""
@@ -54,9 +56,7 @@ class Switching:
     system: FuzzySystem | None = None
 
     def __post_init__(self) -> None:
-        if self.kind != "sign" and not (
-            isinstance(self.width, (int, float)) and math.isfinite(self.width) and self.width > 0
-        ):
+        if self.kind != "sign" and not (is_number(self.width) and self.width > 0):
             raise ModelError(
                 f"{self.kind}: the width is {self.width!r}; give a positive number, in the unit of the surface"
             )
@@ -160,7 +160,7 @@ def switching_gain(
     """
     _check_numbers("switching_gain", beta=(beta, 1.0), disturbance=(disturbance, 0.0), model_error=(model_error, 0.0),
                    equivalent=(equivalent, 0.0))  # fmt: skip
-    if not (math.isfinite(eta) and eta > 0):
+    if not (is_number(eta) and eta > 0):
         raise ModelError(f"switching_gain: eta is {eta!r}; give a positive number, else the surface is never reached")
     share = 1 - 1 / beta if printed else beta - 1
     return beta * (eta + disturbance + model_error) + share * equivalent
@@ -187,7 +187,7 @@ def reaching_time(s0: float, eta: float, *, mu: float = 0.0, beta: float = 1.0, 
         their width; a tanh never does.
     """
     _check_numbers("reaching_time", mu=(mu, 0.0), beta=(beta, 1.0), layer=(layer, 0.0))
-    if not (math.isfinite(eta) and eta > 0) or not math.isfinite(s0):
+    if not (is_number(eta) and eta > 0) or not is_number(s0):
         raise ModelError(f"reaching_time: s0 is {s0!r} and eta {eta!r}; give a finite and a positive number")
     way = max(abs(s0) - layer, 0.0)
     rate = mu / beta
@@ -198,7 +198,7 @@ def reaching_time(s0: float, eta: float, *, mu: float = 0.0, beta: float = 1.0, 
 
 def _check_numbers(what: str, **given: tuple[Any, float]) -> None:
     for name, (value, least) in given.items():
-        if not (isinstance(value, (int, float)) and math.isfinite(value) and value >= least):
+        if not (is_number(value) and value >= least):
             raise ModelError(f"{what}: {name} is {value!r}; give a finite number of {least:g} or more")
 
 
@@ -376,9 +376,9 @@ def _channels(
         raise ModelError(
             f"{name}: an output or a command stands twice in commands=; give each output a command of its own"
         )
-    floors = {name_of(key): value for key, value in least.items()}
-    ends = {name_of(key): value for key, value in saturate.items()} if isinstance(saturate, Mapping) else {}
-    turning = {name_of(key) for key in wrapped}
+    floors = {_name(key): value for key, value in least.items()}
+    ends = {_name(key): value for key, value in saturate.items()} if isinstance(saturate, Mapping) else {}
+    turning = {_name(key) for key in wrapped}
     for what, keys, known in (
         ("least", set(floors), names), ("saturate", set(ends), [second for _, second in pairs]), ("wrapped", turning, names)
     ):  # fmt: skip
@@ -428,11 +428,17 @@ def _known(name: str, what: str, known: Mapping[str, Any], key: Any) -> str:
     return found
 
 
+def _name(key: Any) -> str:
+    """Return the name of a symbol, or what was given in its place."""
+    signal = getattr(key, "signal", None)
+    return signal.name if isinstance(signal, Signal) else str(key)
+
+
 def _for_each(name: str, what: str, given: Any, names: list[str]) -> dict[str, Any]:
     """Return one value for each output."""
     if not isinstance(given, Mapping):
         return dict.fromkeys(names, given)
-    values = {name_of(key): value for key, value in given.items()}
+    values = {_name(key): value for key, value in given.items()}
     if set(values) != set(names):
         raise ModelError(
             f"{name}: {what} is given for {sorted(values)}, and the outputs are {sorted(names)}; give one for each"
@@ -442,12 +448,7 @@ def _for_each(name: str, what: str, given: Any, names: list[str]) -> dict[str, A
 
 def _number(name: str, output: str, what: str, value: Any) -> float:
     least = "more than 0" if what == "lambda" else "0 or more"
-    if (
-        not isinstance(value, (int, float))
-        or not math.isfinite(value)
-        or value < 0
-        or (value == 0 and what == "lambda")
-    ):
+    if not is_number(value) or value < 0 or (value == 0 and what == "lambda"):
         raise ModelError(f"{name}: {what} of {output!r} is {value!r}; give a finite number, {least}")
     return float(value)
 
@@ -525,7 +526,7 @@ def _floor(
     """Return what g is held at, or None where its ranges say that it never vanishes."""
     output = state.signal.name
     if least is not None:
-        if not isinstance(least, (int, float)) or not math.isfinite(least) or least == 0:
+        if not is_number(least) or least == 0:
             raise ModelError(
                 f"{name}: least of {output!r} is {least!r}; give a number that is not zero, with the sign of g"
             )
@@ -570,11 +571,10 @@ def _declare_references(block: Block, plant: Plant, own: _Channel) -> tuple[Symb
     signal = own.state.signal
     rate = own.rate_state(plant)
     ends = (rate.low, rate.high) if rate else None
+    aims = (-MOST_TURNED, MOST_TURNED) if signal.angle else _range(signal)
     per, per_square = (f"{signal.unit}/s", f"{signal.unit}/s^2") if signal.unit else ("", "")
     return (
-        block.input(
-            f"reference_{own.name}", unit=signal.unit, range=_range(signal), doc=f"what {own.name} is to follow"
-        ),
+        block.input(f"reference_{own.name}", unit=signal.unit, range=aims, doc=f"what {own.name} is to follow"),
         block.input(f"reference_rate_{own.name}", unit=per, range=ends, doc="its rate"),
         block.input(f"reference_acceleration_{own.name}", unit=per_square, doc="its second derivative"),
     )

@@ -4,6 +4,7 @@ import re
 from dataclasses import replace
 
 import pytest
+from plantc.codegen import proof
 from plantc.codegen.proof import ProofError, proof_tasks, prove, replaced
 from plantc.examples.pendulum import pendulum, pendulum_ekf
 from plantc.symbolic.james_stein import james_stein_estimator
@@ -187,6 +188,23 @@ def test_a_block_without_a_covariance_is_proved(needs, name):
     found = prove(block, emit(block, "float"))
     assert [(check.name, check.note) for check in found.checks if not check.passed] == []
     assert {"init", "step"} <= set(found.facts["proof"])
+
+
+@pytest.mark.parametrize(("enough", "tried"), [(2000, [2000]), (2001, [2000, 20000]), (20001, [2000, 20000])])
+def test_more_states_are_kept_apart_only_where_fewer_do_not_do(monkeypatch, enough, tried):
+    """And what was tried is told."""
+    seen = []
+
+    def analysed(block, text, task, effort, *, seconds):
+        seen.append(effort)
+        status = "Valid" if effort >= enough else "Unknown"
+        return [proof.Property("prove", "user assertion", status, "c[0] <= 1.0")] * task.assertions, frozenset()
+
+    monkeypatch.setattr(proof, "analyse", analysed)
+    found = prove(pendulum_ekf, FLOAT, ["is_held"])
+    assert seen == tried
+    assert found.checks[0].passed == (enough <= 20000)
+    assert found.facts["efforts"] == ({"is_held": tried} if enough <= 20000 else {})
 
 
 def test_an_analysis_that_does_not_end_is_a_failed_proof(needs):

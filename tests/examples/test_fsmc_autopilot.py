@@ -286,7 +286,7 @@ def test_scenario_d():
 def test_every_signal_is_that_of_the_reference_with_noise_too():
     d, v = disturbances(1000, onset=0.3, seed=11)
     told, run = simulate(Scenario(steps=1000, d=d, v=v)), fly(Flight(steps=1000, d=d, v=v))
-    for name in ("X", "estimate", "reference", "u", "applied", "w", "Om", "s"):
+    for name in ("X", "estimate", "reference", "u", "applied", "w", "Om", "s", "switching", "deviation"):
         np.testing.assert_allclose(getattr(run, name), getattr(told, name), rtol=0, atol=1e-9, err_msg=name)
 
 

@@ -1,8 +1,6 @@
 """Estimator and printed state feedback in one block: the closed loop of specs/meda2018.md, section 10.1(e), in C."""
 
-import json
 from dataclasses import replace
-from pathlib import Path
 
 import casadi as ca
 import numpy as np
@@ -17,7 +15,6 @@ from plantc.symbolic.discretisation import transition
 
 from plantc import NativeView, ReferenceView, connect, cross_check, emit, wires
 
-ROOT = Path(__file__).resolve().parents[2]
 NAMES = [state.signal.name for state in sampled.states]
 ROTORS = [symbol.signal.name for symbol in sampled.inputs]
 X_O = np.eye(12)[4] * 30
@@ -161,19 +158,3 @@ def test_a_wrong_wire_in_the_c_fails_the_cross_check(fault):
     native = NativeView(block, text=replace(text, source=text.source.replace(right, wrong)))
     found = cross_check(block, views=make_views(block, "double", native), steps=20)
     assert "native = reference" in {result.name for result in found.failures}
-
-
-def row(which):
-    """A line of the table in docs/controllers.md, from what export measured."""
-    evidence = json.loads((ROOT / f"generated_c/quadrotor_{which}_controller/evidence.json").read_text())
-    seen = [evidence["targets"][name]["instructions"]["step"] for name in ("cortex-m4", "cortex-m7", "rv32")]
-    assert all(evidence["targets"][name]["free_run"]["equal_to_host"] for name in ("cortex-m4", "cortex-m7", "rv32"))
-    m4 = evidence["targets"]["cortex-m4"]
-    worst = next(check["worst"] for check in evidence["checks"] if check["name"] == "float = double")
-    sizes = [m4["instruction_bound"]["step"], m4["stack_bound"]["step"], m4["object"]["text"], evidence["memory_bytes"]]
-    return f"| `quadrotor_{which}_controller` | {' | '.join(map(str, seen + sizes))} | {worst:.1e} |"
-
-
-def test_the_page_says_what_was_measured():
-    page = (ROOT / "docs/controllers.md").read_text()
-    assert "\n".join(map(row, ENDS)) in page, "the table should be:\n" + "\n".join(map(row, ENDS))

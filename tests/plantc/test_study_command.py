@@ -57,7 +57,7 @@ def test_json_is_alone_on_standard_output(asked, plantc, tmp_path):
     assert answer["status"] == 0
     assert answer["summary"] == said.summary
     assert asked == [(7, 2018, None)]
-    assert answer["results"]["conditions"] == {"Runs": 20}
+    assert answer["results"]["conditions"] == {"Runs": 7}
     assert answer["results"]["tables"]["main"]["rows"] == [[None]]
     assert answer["verdicts"]["does not reproduce"] == 1
 
@@ -67,7 +67,7 @@ def test_json_is_alone_on_standard_output(asked, plantc, tmp_path):
     [
         (
             ["study", "meda2081"],
-            "there is no study 'meda2081'; give one of meda2018, regulation2023, jump_matrix, sample",
+            "there is no study 'meda2081'; give one of meda2018, regulation2023, jump_matrix, fsmc2018, sample",
         ),
         (["study", "sample", "--runs", "0"], "Invalid value for '--runs': 0 is not in the range"),
         (["study", "sample", "--runs", "many"], "Invalid value for '--runs': 'many' is not a valid integer range"),

@@ -7,7 +7,7 @@ import pytest
 from plantc.reference.sliding_mode import CommandFilter
 from plantc.symbolic.command_filter import highest_frequency
 
-from plantc import ModelError, NativeView, Status, command_filter, cross_check, export
+from plantc import ModelError, NativeView, Status, command_filter, cross_check
 
 H = 1e-3
 RADIANS = {"unit": "rad", "range": (-0.5, 0.5)}
@@ -97,8 +97,3 @@ def test_all_views_agree(precision):
     check = cross_check(command_filter(20.0, 0.8, dt=H, **RADIANS), precision, steps=40)
     assert check.passed, [(item.name, str(item.mismatch), item.note) for item in check.failures]
     assert check.statuses["OK"] > 60
-
-
-@pytest.mark.slow
-def test_it_passes_the_gates(tmp_path):
-    assert export(command_filter(20.0, dt=H, **RADIANS), tmp_path, precision="float", steps=40).passed

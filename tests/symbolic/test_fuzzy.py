@@ -288,12 +288,5 @@ def test_the_check_sees_another_rule():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("precision", ["float", "double"])
-def test_a_fuzzy_block_passes_the_gates(precision, tmp_path):
-    made = export(
-        two_inputs(**KINDS["union" if precision == "float" else "sum"]).block("pusher"),
-        tmp_path,
-        precision=precision,
-        steps=40,
-    )
-    assert made.passed
+def test_a_fuzzy_block_passes_the_gates(tmp_path):
+    assert export(two_inputs(**KINDS["union"]).block("pusher"), tmp_path, precision="float", steps=40).passed

@@ -11,9 +11,10 @@ from plantc.simulation import Start, closed_loop, replay
 from plantc.symbolic import ModelError, Plant, Status, sin
 from plantc.symbolic.jump_matrix import jump_matrix_estimator, jump_model, jump_simulation
 from plantc.symbolic.program import unpack_symmetric
+from plantc.symbolic.simulated import simulated_plant
 from scipy.integrate import solve_ivp
 
-from plantc import NativeView, cross_check, export
+from plantc import NativeView, cross_check, emit, export, extended_kalman_filter
 
 
 def pendulum(**changed):
@@ -162,6 +163,7 @@ def says(what, **options):
 
 def test_refusals():
     says("does not occur in the dynamics as it is written there", named=lambda a, r: {"cubic": a**3})
+    says("the nonlinearities are given as list; give a dictionary", named=lambda a, r: [sin(a)])
     says("is the constant 2", named=lambda a, r: {"two": ca.SX(2)})
     says(
         "the dynamics of 'rate' are not affine besides gravity: their derivative by 'rate' is -(2 rate)",
@@ -217,6 +219,9 @@ def test_refusals_of_the_estimator():
         jump_matrix_estimator(model, "both", initial_variance=1.0)
     with pytest.raises(ModelError, match="covariance_transition has shape"):
         jump_matrix_estimator(model, covariance_transition=np.eye(2), initial_variance=1.0)
+    for make in (jump_simulation, lambda plant: jump_matrix_estimator(plant, initial_variance=1.0)):
+        with pytest.raises(ModelError, match="a Plant is given where a jump model is needed; give what jump_model"):
+            make(model.plant)
     with pytest.raises(ModelError, match="the gain has shape .*; give one row for each of the 1 inputs"):
         model.closed_transition([1.0, 2.0])
 
@@ -552,3 +557,73 @@ def test_planted_faults_are_caught():
     before = ca.SX(ca.DM(wrong)) @ plant.x
     plant._dynamics["x1"] = before[0]
     assert failed(jump_matrix_estimator(replace(model, plant=plant), **common))
+
+
+# -- beside an extended Kalman filter ---------------------------------------------------------------------------------
+
+
+def test_the_map_of_the_states_alone_moves_as_the_jump_model_does():
+    model = jump_systems.van_der_pol().model
+    both, alone = (
+        Compiled(jump_simulation(model, around={"x1": 5.0})),
+        Compiled(simulated_plant(model.one_step, around={"x1": 5.0})),
+    )
+    for k in range(100):
+        assert both("step", w=np.sin(k)) == alone("step", w=np.sin(k)) == Status.OK
+        np.testing.assert_allclose(both.x("x1", "x2"), alone.x("x1", "x2"), rtol=1e-12)
+
+
+def test_the_jacobian_estimator_is_an_extended_kalman_filter():
+    """Section 8: beside that of the map of the states alone it differs to second order in the correction, and only so."""
+    model = jump_systems.spring().model
+    names = ("x1", "x2")
+    slope = np.array([[1, 0], [0, 1], [3 * 1.5**2, 0]])
+    by_jump = Compiled(jump_matrix_estimator(model, initial_variance=1.0))
+    plain = Compiled(extended_kalman_filter(model.one_step, initial_variance={"x1": 1.0, "x2": 1.0}))
+
+    def difference(correction):
+        """Return the difference of both estimates a step after a reading that is off by so much, from the same estimate."""
+        by_jump.set(x1=1.5, x2=0.0, cubic=1.5**3, covariance=(slope @ slope.T)[np.triu_indices(3)])
+        plain.set(x1=1.5, x2=0.0, covariance=np.eye(2)[np.triu_indices(2)])
+        ends = []
+        for filter_ in (by_jump, plain):
+            assert filter_("predict") == Status.OK
+            assert filter_("update_z", z=filter_.x("x1")[0] + correction) == Status.OK
+            assert filter_("predict") == Status.OK
+            ends.append(filter_.x(*names))
+        return ends[1] - ends[0]
+
+    assert np.max(np.abs(difference(0.0))) < 1e-15
+    small, twice = difference(0.1), difference(0.2)
+    np.testing.assert_allclose(twice / small, 4.0, rtol=0.02)
+    # phi(s+) less its tangent at s-, over the step: 3 x1 d^2 with d = K1 0.1, by Phi_sn
+    by_jump.set(x1=1.5, x2=0.0, cubic=1.5**3, covariance=(slope @ slope.T)[np.triu_indices(3)])
+    by_jump("predict")
+    gain = by_jump.P()[0, 0] / (by_jump.P()[0, 0] + 4.0)
+    np.testing.assert_allclose(small, model.Phi[:2, 2] * 3 * 1.5 * (0.1 * gain) ** 2, rtol=0.02)
+
+
+def test_noise_per_step_may_be_added():
+    """As to any discrete plant; the filter adds it behind a, and so does the oracle."""
+    model = made()
+    model.plant.step_noise({"angle": 1e-6, "gravity": 1e-4})
+    assert not model.continuous.step_variances
+    assert list(model.one_step.step_variances) == ["angle"]
+    block = jump_matrix_estimator(model, "identity", initial_variance=0.0)
+    filter_ = Compiled(block)
+    assert filter_("predict", torque=0.0) == Status.OK
+    expected = model.Psi @ model.Psi.T + np.diag([1e-6, 0, 1e-4])
+    np.testing.assert_allclose(filter_.P(), expected, rtol=1e-14)
+    check = cross_check(block, steps=20)
+    assert check.passed, [item for item in check.results if not item.passed]
+
+
+@pytest.mark.slow
+def test_an_estimator_without_any_floor_is_exported(tmp_path):
+    """A variance of zero is no fault; that there is nothing below it to be raised is no statement that nothing reaches."""
+    system = jump_systems.spring()
+    block = jump_matrix_estimator(system.model, initial_variance=0.0, around=system.start)
+    done = export(block, tmp_path, precision="float", steps=40)
+    assert "floor_i" not in done.files["src/spring_jump_estimator.c"]
+    floored = jump_matrix_estimator(system.model, initial_variance=1.0, around=system.start)
+    assert "floor_i" in emit(floored, "float").source

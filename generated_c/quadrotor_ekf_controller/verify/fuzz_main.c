@@ -902,7 +902,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 
         if ((at == INIT) && (choice >= 64U))
         {
-            at = 1U + (choice % (ENTRIES - 1U)); /* init is rarer than the others */
+            at = 1U; /* init is rarer than the others */
         }
         if (take(&from, 1U) < 12U)
         {

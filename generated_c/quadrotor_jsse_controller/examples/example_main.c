@@ -1,4 +1,4 @@
-/* How to call quadrotor_jsse_controller: an example to copy from. Written by plantc 0.1.0 from model 72055b4a.
+/* How to call quadrotor_jsse_controller: an example to copy from. Written by plantc 0.1.0 from model 3848e263.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  */
 #include "quadrotor_jsse_controller.h"

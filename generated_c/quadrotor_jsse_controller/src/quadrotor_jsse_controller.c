@@ -1,4 +1,4 @@
-/* quadrotor_jsse_controller: see quadrotor_jsse_controller.h. Written by plantc 0.1.0 from model 72055b4a. */
+/* quadrotor_jsse_controller: see quadrotor_jsse_controller.h. Written by plantc 0.1.0 from model 3848e263. */
 #include "quadrotor_jsse_controller.h"
 
 #include <math.h>
@@ -321,7 +321,7 @@ static quadrotor_jsse_controller_status_t quadrotor_jsse_controller_estimator_pr
     return status;
 }
 
-/* 36 additions, 26 multiplications, 1 division, 4 selections. */
+/* 36 additions, 26 multiplications, 1 division, 3 selections. */
 static quadrotor_jsse_controller_status_t quadrotor_jsse_controller_estimator_update_pose_core(
     const quadrotor_jsse_controller_estimator_state_t *before, quadrotor_jsse_controller_estimator_state_t *after,
     const quadrotor_jsse_controller_estimator_params_t *params, const float pose[12],
@@ -407,8 +407,7 @@ static quadrotor_jsse_controller_status_t quadrotor_jsse_controller_estimator_up
         const float std_pose = params->std_pose;
         const float v_4 = 10.0f * (std_pose * std_pose);
         const float v_5 = (v_4 <= distance_squared) ? distance_squared : ((v_4 == v_4) ? v_4 : distance_squared);
-        const bool v_6 = 0.0f < v_5;
-        const float weight = v_6 ? ((v_5 - v_4) / (v_6 ? v_5 : 1.0f)) : 1.0f;
+        const float weight = (0.0f < v_5) ? ((v_5 - v_4) / v_5) : 1.0f;
         out->weight = weight;
         after->x = x + (innovation_0 * weight);
         after->vx = vx + (innovation_1 * weight);
@@ -806,7 +805,7 @@ quadrotor_jsse_controller_status_t quadrotor_jsse_controller_step(quadrotor_jsse
 /* The hash of the model, as in the header. */
 const char *quadrotor_jsse_controller_model(void)
 {
-    return "72055b4a";
+    return "3848e263";
 }
 
 /* A sentence for a status. */

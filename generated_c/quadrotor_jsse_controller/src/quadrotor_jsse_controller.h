@@ -1,6 +1,6 @@
 /* quadrotor_jsse_controller: composition of quadrotor_jsse, feedback, in single precision.
  *
- * Written by plantc 0.1.0 from model 72055b4a. Do not edit: change the model, export again.
+ * Written by plantc 0.1.0 from model 3848e263. Do not edit: change the model, export again.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  *
  *    estimator: x' = vx
@@ -134,33 +134,10 @@ typedef struct
 
 typedef struct
 {
-    float rotor_1;  /* speed of rotor 1  [rad/s]  -1000 .. 1000 */
-    float rotor_2;  /* speed of rotor 2  [rad/s]  -1000 .. 1000 */
-    float rotor_3;  /* speed of rotor 3  [rad/s]  -1000 .. 1000 */
-    float rotor_4;  /* speed of rotor 4  [rad/s]  -1000 .. 1000 */
-} quadrotor_jsse_controller_estimator_predict_in_t;
-
-typedef struct
-{
-    float pose[12];  /* all twelve states, in their order  -1e6 .. 1e6 */
-} quadrotor_jsse_controller_estimator_update_pose_in_t;
-
-typedef struct
-{
     float innovation[12];    /* measured minus expected */
     float distance_squared;  /* D2, of the reading from the prediction */
     float weight;            /* of the reading: 1 takes what it says, 0 leaves the prediction  0 .. 1 */
 } quadrotor_jsse_controller_estimator_update_pose_out_t;
-
-typedef struct
-{
-    float rotor_1;   /* speed of rotor 1                    [rad/s]  -1000 .. 1000 */
-    float rotor_2;   /* speed of rotor 2                    [rad/s]  -1000 .. 1000 */
-    float rotor_3;   /* speed of rotor 3                    [rad/s]  -1000 .. 1000 */
-    float rotor_4;   /* speed of rotor 4                    [rad/s]  -1000 .. 1000 */
-    bool has_pose;   /* whether there is a reading of pose */
-    float pose[12];  /* all twelve states, in their order            -1e6 .. 1e6 */
-} quadrotor_jsse_controller_estimator_step_in_t;
 
 typedef struct
 {
@@ -196,22 +173,6 @@ typedef struct
 {
     uint8_t unused;  /* nothing to remember */
 } quadrotor_jsse_controller_feedback_state_t;
-
-typedef struct
-{
-    float x;           /* position                  [m]      -10000 .. 10000 */
-    float vx;          /* velocity along x          [m/s]    -1000 .. 1000 */
-    float y;           /* position                  [m]      -10000 .. 10000 */
-    float vy;          /* velocity along y          [m/s]    -1000 .. 1000 */
-    float z;           /* altitude, upwards         [m]      -10000 .. 10000 */
-    float vz;          /* velocity along z          [m/s]    -1000 .. 1000 */
-    float roll;        /* roll angle, not wrapped   [rad]    -30 .. 30 */
-    float roll_rate;   /* its rate                  [rad/s]  -100 .. 100 */
-    float pitch;       /* pitch angle, not wrapped  [rad]    -30 .. 30 */
-    float pitch_rate;  /* its rate                  [rad/s]  -100 .. 100 */
-    float yaw;         /* yaw angle, not wrapped    [rad]    -30 .. 30 */
-    float yaw_rate;    /* its rate                  [rad/s]  -100 .. 100 */
-} quadrotor_jsse_controller_feedback_step_in_t;
 
 typedef struct
 {

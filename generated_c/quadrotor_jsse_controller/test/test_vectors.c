@@ -1,4 +1,4 @@
-/* Test vectors of quadrotor_jsse_controller with their runner. Written by plantc 0.1.0 from model 72055b4a.
+/* Test vectors of quadrotor_jsse_controller with their runner. Written by plantc 0.1.0 from model 3848e263.
  *
  * Each call starts from a stated memory; what it gives is compared with what the Python model gave, in units of the
  * natural size of each field. Build with quadrotor_jsse_controller.c; returns 0 if all agree. For hosts: it prints.
@@ -396,7 +396,7 @@ static int texts_are_wrong(void)
         QUADROTOR_JSSE_CONTROLLER_OVERFLOW
     };
     const char *const unknown = quadrotor_jsse_controller_status_text((quadrotor_jsse_controller_status_t)127);
-    int wrong = (strcmp(quadrotor_jsse_controller_model(), "72055b4a") != 0);
+    int wrong = (strcmp(quadrotor_jsse_controller_model(), "3848e263") != 0);
 
     for (size_t i = 0; i < (sizeof(known) / sizeof(known[0])); i++)
     {

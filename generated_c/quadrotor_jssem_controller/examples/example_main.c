@@ -1,4 +1,4 @@
-/* How to call quadrotor_jssem_controller: an example to copy from. Written by plantc 0.1.0 from model 4f57bb79.
+/* How to call quadrotor_jssem_controller: an example to copy from. Written by plantc 0.1.0 from model b00f45d0.
  * This file belongs to whoever exported it; no licence of plantc applies to it.
  */
 #include "quadrotor_jssem_controller.h"

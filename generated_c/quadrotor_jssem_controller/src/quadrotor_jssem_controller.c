@@ -1,4 +1,4 @@
-/* quadrotor_jssem_controller: see quadrotor_jssem_controller.h. Written by plantc 0.1.0 from model 4f57bb79. */
+/* quadrotor_jssem_controller: see quadrotor_jssem_controller.h. Written by plantc 0.1.0 from model b00f45d0. */
 #include "quadrotor_jssem_controller.h"
 
 #include <math.h>
@@ -426,7 +426,7 @@ static quadrotor_jssem_controller_status_t quadrotor_jssem_controller_estimator_
     return status;
 }
 
-/* 36 additions, 27 multiplications, 2 divisions, 1 negation, 19 selections, expf. */
+/* 36 additions, 27 multiplications, 2 divisions, 1 negation, 18 selections, expf. */
 static quadrotor_jssem_controller_status_t quadrotor_jssem_controller_estimator_update_pose_core(
     const quadrotor_jssem_controller_estimator_state_t *before, quadrotor_jssem_controller_estimator_state_t *after,
     const quadrotor_jssem_controller_estimator_params_t *params, const float pose[12],
@@ -515,23 +515,34 @@ static quadrotor_jssem_controller_status_t quadrotor_jssem_controller_estimator_
         const bool v_5 = !((v_4 < 1.0e-30f) && (0.0f < gamma_pose));
         const float v_6 = v_4 * 10.0f;
         const float v_7 = (v_6 <= distance_squared) ? distance_squared : ((v_6 == v_6) ? v_6 : distance_squared);
-        const bool v_8 = 0.0f < v_7;
-        const float v_9 = gamma_pose / ((1.0e-30f <= v_4) ? v_4 : 1.0e-30f);
-        const float v_10 = (v_8 ? ((v_7 - v_6) / (v_8 ? v_7 : 1.0f)) : 1.0f) *
-            quadrotor_jssem_controller_math_exp(-((v_9 <= 1000.0f) ? v_9 : 1000.0f));
-        out->weight = v_5 ? v_10 : 0.0f;
-        after->x = x + (v_5 ? (innovation_0 * v_10) : 0.0f);
-        after->vx = vx + (v_5 ? (innovation_1 * v_10) : 0.0f);
-        after->y = y + (v_5 ? (innovation_2 * v_10) : 0.0f);
-        after->vy = vy + (v_5 ? (innovation_3 * v_10) : 0.0f);
-        after->z = z + (v_5 ? (innovation_4 * v_10) : 0.0f);
-        after->vz = vz + (v_5 ? (innovation_5 * v_10) : 0.0f);
-        after->roll = roll + (v_5 ? (innovation_6 * v_10) : 0.0f);
-        after->roll_rate = roll_rate + (v_5 ? (innovation_7 * v_10) : 0.0f);
-        after->pitch = pitch + (v_5 ? (innovation_8 * v_10) : 0.0f);
-        after->pitch_rate = pitch_rate + (v_5 ? (innovation_9 * v_10) : 0.0f);
-        after->yaw = yaw + (v_5 ? (innovation_10 * v_10) : 0.0f);
-        after->yaw_rate = yaw_rate + (v_5 ? (innovation_11 * v_10) : 0.0f);
+        const float v_8 = gamma_pose / ((1.0e-30f <= v_4) ? v_4 : 1.0e-30f);
+        const float v_9 = ((0.0f < v_7) ? ((v_7 - v_6) / v_7) : 1.0f) * quadrotor_jssem_controller_math_exp(-((v_8 <=
+            1000.0f) ? v_8 : 1000.0f));
+        out->weight = v_5 ? v_9 : 0.0f;
+        const float v_10 = innovation_0 * v_9;
+        after->x = x + (v_5 ? v_10 : 0.0f);
+        const float v_11 = innovation_1 * v_9;
+        after->vx = vx + (v_5 ? v_11 : 0.0f);
+        const float v_12 = innovation_2 * v_9;
+        after->y = y + (v_5 ? v_12 : 0.0f);
+        const float v_13 = innovation_3 * v_9;
+        after->vy = vy + (v_5 ? v_13 : 0.0f);
+        const float v_14 = innovation_4 * v_9;
+        after->z = z + (v_5 ? v_14 : 0.0f);
+        const float v_15 = innovation_5 * v_9;
+        after->vz = vz + (v_5 ? v_15 : 0.0f);
+        const float v_16 = innovation_6 * v_9;
+        after->roll = roll + (v_5 ? v_16 : 0.0f);
+        const float v_17 = innovation_7 * v_9;
+        after->roll_rate = roll_rate + (v_5 ? v_17 : 0.0f);
+        const float v_18 = innovation_8 * v_9;
+        after->pitch = pitch + (v_5 ? v_18 : 0.0f);
+        const float v_19 = innovation_9 * v_9;
+        after->pitch_rate = pitch_rate + (v_5 ? v_19 : 0.0f);
+        const float v_20 = innovation_10 * v_9;
+        after->yaw = yaw + (v_5 ? v_20 : 0.0f);
+        const float v_21 = innovation_11 * v_9;
+        after->yaw_rate = yaw_rate + (v_5 ? v_21 : 0.0f);
 
         if (!(((out->distance_squared >= 0.0f) == true) && ((out->distance_squared <= 1.0e30f) == true)
               && ((out->weight >= -1.0f) == true) && ((out->weight <= 2.0f) == true)))
@@ -916,7 +927,7 @@ quadrotor_jssem_controller_status_t quadrotor_jssem_controller_step(quadrotor_js
 /* The hash of the model, as in the header. */
 const char *quadrotor_jssem_controller_model(void)
 {
-    return "4f57bb79";
+    return "b00f45d0";
 }
 
 /* A sentence for a status. */

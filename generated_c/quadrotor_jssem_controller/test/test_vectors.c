@@ -1,4 +1,4 @@
-/* Test vectors of quadrotor_jssem_controller with their runner. Written by plantc 0.1.0 from model 4f57bb79.
+/* Test vectors of quadrotor_jssem_controller with their runner. Written by plantc 0.1.0 from model b00f45d0.
  *
  * Each call starts from a stated memory; what it gives is compared with what the Python model gave, in units of the
  * natural size of each field. Build with quadrotor_jssem_controller.c; returns 0 if all agree. For hosts: it prints.
@@ -385,7 +385,7 @@ static int texts_are_wrong(void)
         QUADROTOR_JSSEM_CONTROLLER_OVERFLOW
     };
     const char *const unknown = quadrotor_jssem_controller_status_text((quadrotor_jssem_controller_status_t)127);
-    int wrong = (strcmp(quadrotor_jssem_controller_model(), "4f57bb79") != 0);
+    int wrong = (strcmp(quadrotor_jssem_controller_model(), "b00f45d0") != 0);
 
     for (size_t i = 0; i < (sizeof(known) / sizeof(known[0])); i++)
     {

@@ -164,19 +164,6 @@ typedef struct
 
 typedef struct
 {
-    float rotor_1;  /* speed of rotor 1  [rad/s]  -1000 .. 1000 */
-    float rotor_2;  /* speed of rotor 2  [rad/s]  -1000 .. 1000 */
-    float rotor_3;  /* speed of rotor 3  [rad/s]  -1000 .. 1000 */
-    float rotor_4;  /* speed of rotor 4  [rad/s]  -1000 .. 1000 */
-} quadrotor_kf_controller_estimator_predict_in_t;
-
-typedef struct
-{
-    float pose[12];  /* all twelve states, in their order  -1e6 .. 1e6 */
-} quadrotor_kf_controller_estimator_update_pose_in_t;
-
-typedef struct
-{
     float innovation[12];  /* measured minus expected */
     float variance[12];    /* of the innovation */
     float nis;             /* normalised innovation squared, of the whole reading */
@@ -184,24 +171,9 @@ typedef struct
 
 typedef struct
 {
-    float rotor_1;   /* speed of rotor 1                    [rad/s]  -1000 .. 1000 */
-    float rotor_2;   /* speed of rotor 2                    [rad/s]  -1000 .. 1000 */
-    float rotor_3;   /* speed of rotor 3                    [rad/s]  -1000 .. 1000 */
-    float rotor_4;   /* speed of rotor 4                    [rad/s]  -1000 .. 1000 */
-    bool has_pose;   /* whether there is a reading of pose */
-    float pose[12];  /* all twelve states, in their order            -1e6 .. 1e6 */
-} quadrotor_kf_controller_estimator_step_in_t;
-
-typedef struct
-{
     quadrotor_kf_controller_status_t status_pose;              /* status of pose itself */
     quadrotor_kf_controller_estimator_update_pose_out_t pose;  /* what update_pose reported, else zeros */
 } quadrotor_kf_controller_estimator_step_out_t;
-
-typedef struct
-{
-    float factor;  /* factor on the covariance  1 .. 1e6 */
-} quadrotor_kf_controller_estimator_inflate_in_t;
 
 /* What may be tuned without exporting again. */
 typedef struct
@@ -231,22 +203,6 @@ typedef struct
 {
     uint8_t unused;  /* nothing to remember */
 } quadrotor_kf_controller_feedback_state_t;
-
-typedef struct
-{
-    float x;           /* position                  [m]      -10000 .. 10000 */
-    float vx;          /* velocity along x          [m/s]    -1000 .. 1000 */
-    float y;           /* position                  [m]      -10000 .. 10000 */
-    float vy;          /* velocity along y          [m/s]    -1000 .. 1000 */
-    float z;           /* altitude, upwards         [m]      -10000 .. 10000 */
-    float vz;          /* velocity along z          [m/s]    -1000 .. 1000 */
-    float roll;        /* roll angle, not wrapped   [rad]    -30 .. 30 */
-    float roll_rate;   /* its rate                  [rad/s]  -100 .. 100 */
-    float pitch;       /* pitch angle, not wrapped  [rad]    -30 .. 30 */
-    float pitch_rate;  /* its rate                  [rad/s]  -100 .. 100 */
-    float yaw;         /* yaw angle, not wrapped    [rad]    -30 .. 30 */
-    float yaw_rate;    /* its rate                  [rad/s]  -100 .. 100 */
-} quadrotor_kf_controller_feedback_step_in_t;
 
 typedef struct
 {
