@@ -2,6 +2,7 @@
 #include "machine_main.h"
 
 #define PAINT 0xDEADBEEFu
+#define OWN 256u /* words that this program itself may use: painted anew before each call */
 #define BUFFER 32768u
 
 extern uint32_t stack_low, stack_high, data_source, data_start, data_end, bss_start, bss_end;
@@ -183,6 +184,11 @@ __attribute__((noinline)) measured_t measured_call(entry_t function, void *first
     volatile uint32_t *place = unpainted;
     volatile uint32_t *const pointer = stack_pointer();
     uint32_t before, after;
+    /* What ran since the last call, such as reading the next ones, wrote there too, deeper perhaps than that call. */
+    if (((uint32_t)(&stack_high - &stack_low) > OWN) && (place > &stack_high - OWN))
+    {
+        place = &stack_high - OWN;
+    }
     while (place < pointer)
     {
         *place++ = PAINT;

@@ -15,6 +15,7 @@ from plantc.codegen.layout import flatten
 from plantc.codegen.on_target import first_difference, free_trace
 from plantc.codegen.targets import TARGETS, TargetError
 from plantc.examples.quadrotor_ekf import quadrotor_kf
+from plantc.symbolic import controllers
 
 from plantc import Block, NativeView, Status
 
@@ -225,3 +226,14 @@ def test_every_field_comes_back(view):
     answer = target.call("predict", memory, target.inputs("predict", {"rotor_1": np.nan}), target.params())
     assert answer.status == Status.BAD_INPUT
     assert answer.memory.tobytes() == memory.tobytes()
+
+
+@pytest.mark.parametrize("name", ["rv32", "cortex-m4"])
+def test_what_the_program_itself_uses_between_calls_is_not_told_of_a_call(name, needs):
+    """So many calls that they are read in pieces: a call without a frame, right after a piece, shows none."""
+    needs("arm-none-eabi-gcc", "riscv64-unknown-elf-gcc", "qemu-system-arm", "qemu-system-riscv32")
+    block = controllers.low_pass(1.0, dt=0.01)
+    target, native = TargetView(block, "float", TARGETS[name]), NativeView(block, "float")
+    params = native.params()
+    target.calls([Call("init", None, native.init(params), params)] * 3000)
+    assert target.most["init"].stack == 0
