@@ -191,8 +191,8 @@ def _tuning_table(found: Found, runs: int, seed: int) -> StudyTable:
     return StudyTable(
         "tuning",
         "The printed Q and R beside filters that are tuned",
-        ("filter", "K position", "K velocity", "slow 1/s", "fast 1/s", *MEASURED, "own sigma / error, positions", "velocities",
-         "left of a wrong vz"),
+        ("filter", "K position", "K velocity", "slow 1/s", "fast 1/s", *MEASURED, "own sigma / error, positions",
+         "own sigma / error, velocities", "left of a wrong vz"),
         tuple(rows),
         f"FSMC. {UNITS} Own sigma: what the filter says over what there is, 1 where it is consistent. Left: of a wrong start, "
         f"after 1 s. Means over {runs} streams.",

@@ -216,6 +216,11 @@ class _Construction:
         units: Mapping[str, str],
         ranges: Mapping[str, tuple[Any, Any]],
     ):
+        if not isinstance(nonlinearities, Mapping):
+            raise ModelError(
+                f"{plant.name}: the nonlinearities are given as {type(nonlinearities).__name__}; give a dictionary, name -> "
+                "subexpression"
+            )
         if plant.is_discrete:
             raise ModelError(
                 f"{plant.name}: the jump matrix technique discretises a plant itself, and this one is discrete; give it the "
@@ -429,14 +434,14 @@ def jump_simulation(
         State or input -> nominal value: default of the initial state, and where the test traces stay. Nonlinearities that are
         left out follow from it.
     name, doc : str, optional
-        Default name ``<plant>_jump_simulation``.
+        Of the block; default name ``<plant>_jump_simulation``.
 
     Returns
     -------
     Block
         As `simulated_plant` gives it: entries `init` and `step`.
     """
-    plant = model.plant
+    plant = _checked(model).plant
     title = doc or f'The plant "{plant.name}" by the jump matrix technique, simulated: every noise is an input'
     title_name = name or f"{plant.name}_jump_simulation"
     block = simulated_plant(plant, around=model.point(around), name=title_name, doc=title)
@@ -493,7 +498,7 @@ def jump_matrix_estimator(
     ModelError
         If a choice is not known, `covariance_transition` has another shape, or as by `extended_kalman_filter`.
     """
-    plant = model.plant
+    plant = _checked(model).plant
     if a not in get_args(Choice):
         raise ModelError(f"{plant.name}: a is {a!r}; take one of {', '.join(map(repr, get_args(Choice)))}")
     if not isinstance(initial_variance, Mapping):
@@ -533,11 +538,19 @@ _NOTES: dict[str, str] = {
 
 
 def _integrator(model: JumpModel) -> str:
-    names = ", ".join(model.clamps)
-    held = (
-        f"{names} held over the step, the rest exact: a first-order exponential integrator" if names else "Exact step"
-    )
-    return f"{held[0].upper()}{held[1:]}." if not names else f"{held}."
+    if not model.clamps:
+        return "The step is exact."
+    return f"{', '.join(model.clamps)} held over the step, the rest exact: a first-order exponential integrator."
+
+
+def _checked(model: Any) -> JumpModel:
+    """Return a jump model; refuse anything else."""
+    if not isinstance(model, JumpModel):
+        raise ModelError(
+            f"a {type(model).__name__} is given where a jump model is needed; give what jump_model(plant, {{name: subexpression}}, "
+            "dt) returns"
+        )
+    return model
 
 
 def _error_step(model: JumpModel, a: Choice, transition: Any) -> CovarianceStep:

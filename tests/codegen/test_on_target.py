@@ -25,6 +25,7 @@ from plantc.codegen.options import Options
 from plantc.codegen.style import Precision
 from plantc.codegen.targets import TARGETS, TargetError, find_toolchain
 from plantc.examples.attitude_ekf import attitude_ekf
+from plantc.examples.jump_systems import relay_estimator, spring_estimator
 from plantc.examples.pendulum import pendulum_ekf
 from plantc.examples.quadrotor_ekf import quadrotor_ekf, quadrotor_kf
 from plantc.examples.quadrotor_regulator import quadrotor_together_regulator
@@ -62,7 +63,7 @@ def on(name, block, precision, needs, steps=40, probed=20, against=None, **optio
     [
         *[(block, "float") for block in (pendulum_ekf, quadrotor_ekf, quadrotor_kf, attitude_ekf)],
         *[(block, "double") for block in (quadrotor_ekf, pendulum_ekf)],
-        (quadrotor_together_regulator, "float"),
+        *[(block, "float") for block in (quadrotor_together_regulator, spring_estimator, relay_estimator)],
     ],
     ids=lambda item: getattr(item, "name", item),
 )

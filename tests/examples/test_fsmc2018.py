@@ -339,6 +339,8 @@ def test_the_study(found, monkeypatch, tmp_path, checkout):
     assert {row["inside"] for row in made.table("streams")} == {"yes"}
     assert {row["filter"] for row in made.table("tuning")} == set(TUNINGS)
     assert [picture.name for picture in made.pictures] == "tracking velocities commands gains push ramp".split()
+    for table in made.tables:
+        assert len(set(table.columns)) == len(table.columns), table.name
     written = write_study(made, tmp_path)
     text = written[0].read_text()
     for word in ("By the NumPy reference", "erratum 10", "Fig. 12"):

@@ -163,6 +163,7 @@ def says(what, **options):
 
 def test_refusals():
     says("does not occur in the dynamics as it is written there", named=lambda a, r: {"cubic": a**3})
+    says("the nonlinearities are given as list; give a dictionary", named=lambda a, r: [sin(a)])
     says("is the constant 2", named=lambda a, r: {"two": ca.SX(2)})
     says(
         "the dynamics of 'rate' are not affine besides gravity: their derivative by 'rate' is -(2 rate)",
@@ -218,6 +219,9 @@ def test_refusals_of_the_estimator():
         jump_matrix_estimator(model, "both", initial_variance=1.0)
     with pytest.raises(ModelError, match="covariance_transition has shape"):
         jump_matrix_estimator(model, covariance_transition=np.eye(2), initial_variance=1.0)
+    for make in (jump_simulation, lambda plant: jump_matrix_estimator(plant, initial_variance=1.0)):
+        with pytest.raises(ModelError, match="a Plant is given where a jump model is needed; give what jump_model"):
+            make(model.plant)
     with pytest.raises(ModelError, match="the gain has shape .*; give one row for each of the 1 inputs"):
         model.closed_transition([1.0, 2.0])
 
