@@ -1,5 +1,6 @@
 """The benchmark of the quadrotor filter runs and meets the goals: instruction counts, never seconds."""
 
+import importlib.util
 import json
 import os
 import shutil
@@ -110,3 +111,17 @@ def test_the_closed_loop_benchmark_runs_both_ways_to_the_same_states(needs_gcc):
     assert figures["ratio"] == pytest.approx(rates[0] / rates[1])
     if "ratio_to_octave" in figures:  # where Octave is installed
         assert figures["largest_difference_octave"] < 1e-9
+
+
+@pytest.mark.slow
+def test_the_page_of_the_autopilot_shows_what_a_mixer_costs(needs):
+    """Of the table the smallest part is measured anew: the rest takes minutes, and is made by the same lines."""
+    needs("gcc", "arm-none-eabi-gcc", "qemu-system-arm")
+    specification = importlib.util.spec_from_file_location("fsmc_benchmark", ROOT / "benchmarks" / "fsmc.py")
+    benchmark = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(benchmark)
+    cost = benchmark.measure(("cortex-m4",), which=("mixer",))["mixer"]["cortex-m4"]
+    shown = (ROOT / "docs" / "fsmc.md").read_text().split("<!-- cost -->")[1]
+    keys = ("instructions", "instruction_bound", "stack", "stack_bound", "text")
+    assert cost["equal_to_host"]
+    assert f"| mixer | cortex-m4 | {' | '.join(str(cost[key]) for key in keys)} | yes |" in shown

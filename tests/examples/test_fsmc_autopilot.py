@@ -178,7 +178,7 @@ def pilot(precision):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("precision", ["float", "double"])
+@pytest.mark.parametrize("precision", ["float"])
 @pytest.mark.parametrize("bad", [math.nan, math.inf])
 def test_a_reading_that_is_no_number_is_reported_and_skipped(precision, bad):
     view = pilot(precision)
@@ -283,10 +283,11 @@ def test_scenario_d():
     np.testing.assert_allclose(run.estimation(5, 10)[1::2], 1.218e-3, atol=1e-5)
 
 
-def test_every_signal_of_scenario_d_is_that_of_the_reference():
-    told, run = simulate(Scenario(steps=1000)), scenario_d()
+def test_every_signal_is_that_of_the_reference_with_noise_too():
+    d, v = disturbances(1000, onset=0.3, seed=11)
+    told, run = simulate(Scenario(steps=1000, d=d, v=v)), fly(Flight(steps=1000, d=d, v=v))
     for name in ("X", "estimate", "reference", "u", "applied", "w", "Om", "s", "switching", "deviation"):
-        np.testing.assert_allclose(getattr(run, name)[:1000], getattr(told, name), rtol=0, atol=1e-9, err_msg=name)
+        np.testing.assert_allclose(getattr(run, name), getattr(told, name), rtol=0, atol=1e-9, err_msg=name)
 
 
 def test_scenario_e():
