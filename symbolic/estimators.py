@@ -286,7 +286,7 @@ def is_linear(plant: Plant) -> bool:
     gains = ca.jacobian(stacked, plant.w) if plant.noises else ca.SX(0, 0)
     if ca.depends_on(ca.vertcat(ca.vec(jacobian), ca.vec(gains)), point):
         return False
-    return not kink_in(stacked, ca.vertcat(point, plant.w) if plant.noises else point)
+    return not kink_in(stacked, ca.vertcat(point, plant.w) if plant.noises else point, but_turns=True)
 
 
 @dataclass(frozen=True)
