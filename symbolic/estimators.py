@@ -14,6 +14,7 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..reference import estimators as textbook
+from .affinity import kink_in
 from .block import Block, DerivativeCheck, Scenario
 from .derivation import Derivation, Reads, dynamics_equations, known_sources, name_of, plant_equations
 from .discretisation import process_covariance, transition
@@ -283,7 +284,9 @@ def is_linear(plant: Plant) -> bool:
     stacked = ca.vertcat(source.dynamics_expression(), *[sensor.expression for sensor in plant.sensors])
     jacobian = ca.jacobian(plant.without_noise(stacked), point)
     gains = ca.jacobian(stacked, plant.w) if plant.noises else ca.SX(0, 0)
-    return not ca.depends_on(ca.vertcat(ca.vec(jacobian), ca.vec(gains)), point)
+    if ca.depends_on(ca.vertcat(ca.vec(jacobian), ca.vec(gains)), point):
+        return False
+    return not kink_in(stacked, ca.vertcat(point, plant.w) if plant.noises else point)
 
 
 @dataclass(frozen=True)

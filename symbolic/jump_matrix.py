@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from ..reference.jump_matrix import SMALLEST_DIFFERENCE, Choice, ErrorStep, JumpMap
 from ..reference.model import CarriedModel
+from .affinity import kink_in
 from .block import Block
 from .derivation import name_of
 from .errors import ModelError
@@ -321,6 +322,7 @@ class _Construction:
         moving = ca.vertcat(plant.x, plant.u, noises)
         jacobian = ca.sparsify(ca.jacobian(rates, moving))
         self._refuse_coefficients(jacobian, moving)
+        self._refuse_kinks(rates, moving)
         numbers = np.array(ca.DM(ca.evalf(ca.densify(jacobian))), dtype=float).reshape(self.size, moving.numel())
         constant = ca.substitute(rates, moving, ca.DM.zeros(moving.numel()))
         n, m = self.size, plant.u.numel()
@@ -345,6 +347,18 @@ class _Construction:
                 f"{plant.name}: the coefficient {text} of {by!r} in the dynamics of {rows[i]!r} depends on a run-time parameter, "
                 "and the exact step is computed at export; make it a constant, or name the product as a nonlinearity"
             )
+
+    def _refuse_kinks(self, rates: ca.SX, moving: ca.SX) -> None:
+        """Refuse what jumps or has a kink: its derivative may be zero, and it would be held at its value at zero."""
+        rows = [name for state in self.plant.states for name in [state.signal.name] * state.signal.size]
+        for i in range(self.size):
+            found = kink_in(rates[i], moving)
+            if found:
+                named = f" besides {', '.join(self.phis)}" if self.phis else ""
+                raise ModelError(
+                    f"{self.original.name}: the dynamics of {rows[i]!r} are not affine{named}: they hold {found}, which has a jump "
+                    "or a kink; name that nonlinear subexpression too"
+                )
 
     def _process_noises(self) -> list[Noise]:
         """Return the noises of the dynamics, with what they are per step."""

@@ -11,6 +11,7 @@ import casadi as ca
 import numpy as np
 
 from ..reference import sliding_mode as reference
+from .affinity import kink_in
 from .block import Block
 from .components import Calls, Ends, finish, is_number, middle_of, rounded_up
 from .errors import ModelError
@@ -505,7 +506,7 @@ def _derived(name: str, plant: Plant, state: State, command: Symbol, later: list
         raise ModelError(
             f"{name}: the input {moved!r} does not move the second derivative of {output!r}; name one that does"
         )
-    if ca.depends_on(g, command):
+    if ca.depends_on(g, command) or kink_in(second, ca.SX(command)):
         raise ModelError(
             f"{name}: the second derivative of {output!r} is not affine in {moved!r}, so that it is not f + g u; declare what it "
             "is affine in as the input"
