@@ -279,10 +279,11 @@ class FuzzySystem:
     def _check_rules(self) -> None:
         if not self.inputs or not self.outputs or not self.rules:
             raise ModelError("FuzzySystem: it has no input, no output or no rule; give one of each at least")
-        said: dict[Any, Any] = {}
-        for labels, then, _ in self.rules:
-            if said.setdefault(labels, then) is not then:
+        said: set[tuple[str | None, ...]] = set()
+        for labels, _, _ in self.rules:
+            if labels in said:
                 raise ModelError(f"FuzzySystem: two rules are about {labels!r}; keep one of them")
+            said.add(labels)
         for k, item in enumerate(self.inputs):
             if all(labels[k] is None for labels, _, _ in self.rules):
                 raise ModelError(

@@ -24,7 +24,11 @@ MOST_BREAKPOINTS = 4096
 def _call_node(
     name: str, arguments: Sequence[ca.SX], value: ca.SX, slopes: Sequence[ca.SX], names: Sequence[str]
 ) -> ca.Function:
-    """Return a function that stays one node of an expression, and is differentiated by the slopes given."""
+    """Return a function that stays one node of an expression, and is differentiated by the slopes given.
+
+    Its CasADi name is the reserved one (`expressions.CALL_NODES`), by which a tape knows it.
+    """
+    name = f"plantc_{name}"
     result = ca.SX.sym("result")  # CasADi hands it to a derivative, which does not need it
     derivative = ca.Function(
         f"jac_{name}",
@@ -41,13 +45,23 @@ def _call_node(
 
 
 @lru_cache
-def _saturation_node() -> ca.Function:
+def _saturation_node(ordered: bool) -> ca.Function:
+    """Return the saturation; `ordered` says that the lower limit is known to be the lower, which makes the slopes shorter."""
     x, low, high = ca.SX.sym("x"), ca.SX.sym("low"), ca.SX.sym("high")
     raised = ca.if_else(x < low, low, x)
     value = ca.if_else(high < raised, high, raised)
-    inside = ca.if_else(ca.logic_and(low < x, x < high), 1.0, ca.if_else(ca.logic_and(low <= x, x <= high), 0.5, 0.0))
-    below = ca.if_else(x < low, 1.0, ca.if_else(x <= low, 0.5, 0.0))
-    above = ca.if_else(high < x, 1.0, ca.if_else(high <= x, 0.5, 0.0))
+    half, under, at_low = ca.logic_and(low <= x, x <= high), x < low, x <= low
+    over, at_high = high < x, high <= x
+    if not ordered:  # where the limits meet or cross, the value is `high`, and the slopes are its
+        half = ca.logic_or(ca.logic_and(low <= x, x < high), ca.logic_and(low < x, x <= high))
+        under, at_low, over = (
+            ca.logic_and(under, low < high),
+            ca.logic_and(at_low, low < high),
+            ca.logic_or(over, high <= low),
+        )
+    inside = ca.if_else(ca.logic_and(low < x, x < high), 1.0, ca.if_else(half, 0.5, 0.0))
+    below = ca.if_else(under, 1.0, ca.if_else(at_low, 0.5, 0.0))
+    above = ca.if_else(over, 1.0, ca.if_else(at_high, 0.5, 0.0))
     return _call_node("saturation", [x, low, high], value, [inside, below, above], ["x", "low", "high"])
 
 
@@ -104,8 +118,13 @@ def called(operation: str, arguments: Sequence[ca.SX]) -> ca.SX:
         count = len(rest) // 2
         node = _look_up_node(count) if operation == "look_up" else _look_up_slope_node(count)
         return ca.SX(node(x, ca.vertcat(*rest[:count]), ca.vertcat(*rest[count:])))
-    node = _saturation_node() if operation == "saturation" else _extreme_node(operation)
+    node = _saturation_node(_are_ordered(*arguments[1:])) if operation == "saturation" else _extreme_node(operation)
     return ca.SX(node(*arguments))
+
+
+def _are_ordered(low: ca.SX, high: ca.SX) -> bool:
+    """Whether two limits are numbers, the first below the second."""
+    return low.is_constant() and high.is_constant() and float(low) < float(high)
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -124,7 +143,8 @@ def saturated(x: Any, low: Any, high: Any) -> ca.SX:
         Scalar, or a vector, of which each element is held.
     low, high : casadi.SX or number
         The limits, scalar or of the size of x; numbers, parameters or expressions. That low < high is the model's business
-        where they are no numbers: where it does not hold, `high` wins.
+        where they are no numbers: where it does not hold (low >= high), `high` wins: it is the value, the derivative by it is
+        1, and that by x and by `low` is 0.
 
     Returns
     -------
@@ -150,7 +170,7 @@ def saturated(x: Any, low: Any, high: Any) -> ca.SX:
         for first, second in pairs:
             if not first < second:
                 raise ModelError(f"saturated: the limits are {first:g} and {second:g}; give the lower one first")
-    return _elementwise("saturated", _saturation_node(), x, low, high)
+    return _elementwise("saturated", lambda *own: called("saturation", own), x, low, high)
 
 
 def dead_zone(x: Any, low: Any, high: Any) -> ca.SX:
@@ -311,7 +331,7 @@ def _mapped(function: Callable[..., ca.SX], *arguments: ca.SX) -> ca.SX:
     return ca.reshape(ca.vertcat(ca.SX(0, 1), *parts), *shape)
 
 
-def _elementwise(owner: str, node: ca.Function, *given: Any) -> ca.SX:
+def _elementwise(owner: str, node: Callable[..., ca.SX], *given: Any) -> ca.SX:
     arguments = [_expression(owner, item) for item in given]
     shapes = {item.shape for item in arguments if not item.is_scalar()}
     if len(shapes) > 1:

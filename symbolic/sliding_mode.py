@@ -367,6 +367,10 @@ def _channels(
     """Return the channels, derived and judged."""
     if not isinstance(commands, Mapping) or not commands:
         raise ModelError(f"{name}: the commands are {commands!r}; give a dictionary, state -> input that moves it")
+    if not isinstance(saturate, (bool, np.bool_, Mapping)):
+        raise ModelError(
+            f"{name}: saturate is {saturate!r}; give True for the range of each command, or a dictionary, input -> (low, high)"
+        )
     states = {state.signal.name: state for state in plant.states}
     inputs = {symbol.signal.name: symbol for symbol in plant.inputs}
     pairs = [
@@ -402,7 +406,11 @@ def _channels(
                 "fuzzy(system, width)"
             )
         signal = symbol.signal
-        within = (signal.low[0], signal.high[0]) if saturate is True else _within(name, signal, ends.get(command))
+        within = (
+            (signal.low[0], signal.high[0])
+            if saturate and not isinstance(saturate, Mapping)
+            else _within(name, signal, ends.get(command))
+        )
         floor = _floor(name, plant, state, g, floors.get(output), answer)
         answer.append(
             _Channel(state, symbol, rate, f, g, term, numbers, floor, within, state.signal.angle or output in turning)
@@ -526,13 +534,20 @@ def _floor(
 ) -> float | None:
     """Return what g is held at, or None where its ranges say that it never vanishes."""
     output = state.signal.name
+    if least is not None and (not is_number(least) or least == 0):
+        raise ModelError(
+            f"{name}: least of {output!r} is {least!r}; give a number that is not zero, with the sign of g"
+        )
+    low, high = _bounds_of(g, plant, before)
     if least is not None:
-        if not is_number(least) or least == 0:
+        # held by a bound that g never passes, it would be another number than g, everywhere, maybe of the other sign
+        if least > high or least < low:
             raise ModelError(
-                f"{name}: least of {output!r} is {least!r}; give a number that is not zero, with the sign of g"
+                f"{name}: least of {output!r} is {least:g}, and what the command is multiplied by in its second derivative, "
+                f"{equation_text(g, plant.symbol_names())[0]}, is by its ranges in {low:.4g} .. {high:.4g}, so that it would "
+                "always be held; give a number in there, with its sign"
             )
         return float(least)
-    low, high = _bounds_of(g, plant, before)
     if low <= 0 <= high or not math.isfinite(1 / low) or not math.isfinite(1 / high):
         text = equation_text(g, plant.symbol_names())[0]
         raise ModelError(

@@ -223,6 +223,7 @@ def test_what_c_does_with_what_is_no_number():
 SETS = FuzzySet.partition({"N": -1, "P": 1})
 IN, OUT = FuzzyInput("x", (-1, 1), SETS), FuzzyOutput("y", {"N": -1, "P": 1})
 BOTH = [("N", "N"), ("P", "P")]
+SAME = ("N",)
 
 
 @pytest.mark.parametrize(
@@ -243,6 +244,8 @@ BOTH = [("N", "N"), ("P", "P")]
         (lambda: FuzzySystem(IN, OUT, [("N", "N", 0.0), ("P", "P")]), "give more than 0 and at most 1"),
         (lambda: FuzzySystem(IN, OUT, ["N"]), "is no \\(labels in, labels out\\)"),
         (lambda: FuzzySystem(IN, OUT, [*BOTH, ("N", "P")]), r"two rules are about \('N',\)"),
+        (lambda: FuzzySystem(IN, OUT, [*BOTH, BOTH[1]]), r"two rules are about \('P',\)"),
+        (lambda: FuzzySystem(IN, OUT, [("N", SAME), ("N", SAME), ("P", "P")]), r"two rules are about \('N',\)"),
         (lambda: FuzzySystem(IN, OUT, []), "no input, no output or no rule"),
         (lambda: FuzzySystem(IN, OUT, [(None, "N")]), "no rule asks for 'x'"),
         (lambda: FuzzySystem(IN, OUT, [("N", "N")]), "at x = 1 no rule answers"),
