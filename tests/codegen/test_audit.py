@@ -267,22 +267,24 @@ def test_what_is_no_exported_folder_is_refused(folder, tmp_path):
 
 
 @pytest.mark.slow
-def test_every_example_passes_every_audit_with_ten_million_calls(tmp_path, needs, checkout):
+def test_the_examples_pass_every_audit_with_ten_million_calls(tmp_path, needs, checkout):
     needs("cppcheck", "gcc", "clang")
     calls = 0
     for block, _ in PARTS:
+        if block.name == "quadrotor_kf":  # it has the kernels of quadrotor_ekf
+            continue
         shutil.copytree(checkout / "generated_c" / block.name, tmp_path / block.name)
         # cppcheck takes a minute to follow values through any but the pendulum, gcc's analyser minutes over the UD form, and
         # of the twelve-state filters one is looked at: the rest is left to `plantc audit`
         left = [] if block.name == "pendulum_ekf" else ["misra"]
-        left += ["gcc-analyzer"] if block.name in ("quadrotor_ud", "quadrotor_kf") else []
+        left += ["gcc-analyzer"] if block.name == "quadrotor_ud" else []
         if "misra" in left:
             rules = misra.audit_misra(open_folder(tmp_path / block.name), value_flow=False)
             assert [(check.name, check.note) for check in rules.checks if not check.passed] == []
         found = audit_folder(
             tmp_path / block.name,
             only=[name for name in OWN if name not in left],
-            calls={"pendulum_ekf": 4_200_000, "attitude_ekf": 700_000}.get(block.name, 200_000),
+            calls={"pendulum_ekf": 4_500_000, "attitude_ekf": 700_000}.get(block.name, 200_000),
             seconds=2,
         )
         assert found.missing == {}

@@ -61,7 +61,7 @@ def on(name, block, precision, needs, steps=40, probed=20, against=None, **optio
 @pytest.mark.parametrize(
     ("block", "precision"),
     [
-        *[(block, "float") for block in (pendulum_ekf, quadrotor_ekf, quadrotor_kf, attitude_ekf)],
+        *[(block, "float") for block in (pendulum_ekf, quadrotor_ekf, attitude_ekf)],
         *[(block, "double") for block in (quadrotor_ekf, pendulum_ekf)],
         *[(block, "float") for block in (quadrotor_together_regulator, spring_estimator, relay_estimator)],
     ],

@@ -52,28 +52,6 @@ def test_figures_of_several_targets(export, needs, tmp_path, precision):
     assert json.loads((tmp_path / "generated_c/low_pass/evidence.json").read_text())["targets"] == told["targets"]
 
 
-@pytest.mark.slow
-def test_the_quadrotor_on_every_target(needs, checkout, tmp_path, plantc):
-    """The main job: figures from the emulators, agreement with the reference, and the same bits."""
-    needs("arm-none-eabi-gcc", "riscv64-unknown-elf-gcc", "qemu-system-arm", "qemu-system-riscv32")
-    names = ("cortex-m4", "cortex-m7", "rv32")
-    model = f"{checkout / 'examples/quadrotor_ekf.py'}:quadrotor_ekf"
-    words = [word for name in names for word in ("--target", name)]
-    said = plantc("export", model, "--precision", "float", "--out", tmp_path, "--json", *words)
-    assert said.status == 0, said.err
-    told = json.loads(said.out)["blocks"][0]
-    checks = {item["name"]: item for item in told["checks"]}
-    assert all(item["passed"] for item in checks.values())
-    assert checks["float statuses = reference in float"]["calls"] > 100
-    for name in names:
-        assert checks[f"{name} = native"]["note"] == checks[f"{name} = native, free run"]["note"] == "bit for bit"
-        facts = told["targets"][name]
-        assert set(facts["instructions"]) == {"init", "predict", "update_pose", "step", "inflate"}
-        assert facts["instructions"]["step"] > facts["instructions"]["update_pose"]
-        assert 0 < facts["flash"]["needed"] <= facts["flash"]["available"]
-        assert 0 < facts["ram"]["needed"] <= facts["ram"]["available"]
-
-
 def test_contraction_is_in_the_evidence_and_the_manifest(export, needs, tmp_path, plantc):
     needs("arm-none-eabi-gcc", "qemu-system-arm")
     said = export("--target", "cortex-m7", "--contract", "on", "--json")
