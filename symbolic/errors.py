@@ -13,15 +13,15 @@ class ModelError(ValueError):
     """
 
 
-def expect(value: Any, kind: type, what: str, wanted: str) -> None:
+def expect(value: Any, kind: type | tuple[type, ...], what: str, wanted: str) -> None:
     """Refuse an argument of another kind than is wanted.
 
     Parameters
     ----------
     value : object
         What was given.
-    kind : type
-        What it has to be.
+    kind : type or tuple of types
+        What it has to be, or one of them.
     what : str
         The call and the argument, as the user wrote it.
     wanted : str
