@@ -115,7 +115,7 @@ def linear_map(plant: Plant) -> tuple[ca.SX, ca.SX]:
         )
     rates = plant.without_noise(made.continuous.dynamics_expression())
     A = ca.jacobian(rates, plant.x)
-    if ca.depends_on(ca.vec(A), ca.vertcat(plant.x, plant.u)) or kink_in(rates, plant.x):
+    if ca.depends_on(ca.vec(A), ca.vertcat(plant.x, plant.u)) or kink_in(rates, plant.x, but_turns=True):
         raise ModelError(
             f"{plant.name}: {method} is for linear plants, and these dynamics are not; use 'euler' or 'rk4'"
         )

@@ -18,7 +18,7 @@ from .affinity import kink_in
 from .block import Block, DerivativeCheck, Scenario
 from .derivation import Derivation, Reads, dynamics_equations, known_sources, name_of, plant_equations
 from .discretisation import process_covariance, transition
-from .errors import ModelError
+from .errors import ModelError, expect
 from .expressions import equation_text, tape
 from .forms import Conventional, Rows, form_named
 from .kernels import SMALLEST_VARIANCE, Decorrelate, Pattern, Pivots
@@ -118,6 +118,7 @@ def extended_kalman_filter(
     ModelError
         If the plant is continuous, has no sensor, or an initial variance is missing.
     """
+    expect(plant, Plant, "extended_kalman_filter: the plant", "a discrete Plant")
     return filter_of(
         plant,
         None,
@@ -221,6 +222,7 @@ def kalman_filter(
     """
     from .analysis import linearised_plant
 
+    expect(plant, Plant, "kalman_filter: the plant", "a discrete Plant")
     linear = plant
     if at is not None:
         linear = linearised_plant(plant, at)
@@ -272,6 +274,7 @@ def steady_state_kalman_filter(
     """
     from .steady_state import build
 
+    expect(plant, Plant, "steady_state_kalman_filter: the plant", "a discrete Plant")
     return build(plant, around or {}, name or f"{plant.name}_sskf", doc, gain)
 
 
@@ -286,7 +289,7 @@ def is_linear(plant: Plant) -> bool:
     gains = ca.jacobian(stacked, plant.w) if plant.noises else ca.SX(0, 0)
     if ca.depends_on(ca.vertcat(ca.vec(jacobian), ca.vec(gains)), point):
         return False
-    return not kink_in(stacked, ca.vertcat(point, plant.w) if plant.noises else point)
+    return not kink_in(stacked, ca.vertcat(point, plant.w) if plant.noises else point, but_turns=True)
 
 
 @dataclass(frozen=True)

@@ -36,6 +36,16 @@ def test_a_condition_on_something_else_lets_through_what_is_affine():
     assert kink_in(if_else(p > 0, 3 * x, -x), p) == "a comparison"
 
 
+def test_whole_turns_of_an_angle_may_be_left_out_and_nothing_else():
+    x = ca.SX.sym("x")
+    wrapped = x - 2 * ca.pi * ca.floor(x / (2 * ca.pi) + 0.5)
+    assert kink_in(wrapped, x) == "floor"
+    assert kink_in(wrapped, x, but_turns=True) == ""
+    assert kink_in(wrapped + ca.floor(x / (2 * ca.pi) + 0.5), x, but_turns=True) == "floor"
+    assert kink_in(x - 2 * ca.floor(x), x, but_turns=True) == "floor"
+    assert kink_in(ca.floor(x), x, but_turns=True) == "floor"
+
+
 def oscillator(more):
     plant = Plant("oscillator")
     x = plant.state("x", range=(-10, 10))
