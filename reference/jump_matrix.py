@@ -188,6 +188,11 @@ class JumpMap:
         Any parameters: A, B and L do not depend on them.
     T : float
         Seconds per sample.
+
+    Raises
+    ------
+    ValueError
+        If the rates are not affine: a derivative does not tell, for that of a jump is zero.
     """
 
     def __init__(self, rates: Lowered, jump: Lowered, sizes: tuple[int, int, int], p: Array, T: float):
@@ -196,6 +201,18 @@ class JumpMap:
         A = complex_step(lambda value: evaluated(rates, value, u, p, w), x)
         B = complex_step(lambda value: evaluated(rates, x, value, p, w), u)
         L = complex_step(lambda value: evaluated(rates, x, u, p, value), w)
+        x, u, w = (np.cos(np.arange(1, size + 1) * step) for size, step in ((n, 1.3), (m, 1.7), (q, 2.1)))
+        for scale in (1.0, -1.0, 1e3):
+            parts = [
+                A * (scale * x),
+                B * (scale * u),
+                L * (scale * w),
+                evaluated(rates, 0 * x, 0 * u, p, 0 * w)[:, None],
+            ]
+            terms = np.hstack(parts)
+            found = evaluated(rates, scale * x, scale * u, p, scale * w)
+            if np.any(np.abs(found - terms.sum(axis=1)) > 1e-9 * np.abs(terms).sum(axis=1)):
+                raise ValueError("the rates are not affine in x, u and w with the nonlinearities held")
         self.Phi, driven, self.Psi = discrete_parts(A, np.hstack([B, np.eye(n)]), L, T)
         self.Gam, self.held = driven[:, :m], driven[:, m:]
         self.rates, self.jump, self.sizes = rates, jump, sizes

@@ -148,8 +148,8 @@ def closed_loop(
         Discrete: the truth. It need not be the plant that the controller was made for.
     controller : Block
         Has an entry `step`. An output named like an input of the plant commands it; an input named like a sensor, alone or
-        behind the name of a part, gets its reading (if only one of them does; see `readings`); ``has_<sensor>`` is held at
-        true.
+        behind the name of a part, gets its reading (if only one of them does, and no other input has the very name of the
+        sensor or gets it by `readings`); ``has_<sensor>`` is held at true.
     point : OperatingPoint or dict
         The set point x*, u*: state or input -> value. Plant, estimate and commands start there.
     readings : dict, optional
@@ -268,10 +268,18 @@ def _readings(
                 f"{sensor!r}; the plant has {has}"
             )
     answer = dict(readings)
-    taken: dict[str, str] = {}
+    given = {sensor: name for name, sensor in readings.items()}
+    # an input with the very name of a sensor means that one, also where it is held or reads another
+    taken = {name: name for name, signal in inputs.items() if _sensor_of(signal, sensors) == name}
     for name, signal in inputs.items():
         sensor = "" if name in held or name in readings else _sensor_of(signal, sensors)
-        if sensor in taken:
+        if sensor in given and sensor != name:
+            raise ModelError(
+                f"{controller.name}: its input {name!r} is named after the sensor {sensor!r}, which readings= gives to "
+                f"{given[sensor]!r}, and may mean something else; say what it is: held={{{name!r}: ...}}, or "
+                f"readings={{{name!r}: {sensor!r}}} if it is the same"
+            )
+        if taken.get(sensor, name) != name:
             raise ModelError(
                 f"{controller.name}: its inputs {taken[sensor]!r} and {name!r} are both named after the sensor {sensor!r}, "
                 f"and may mean different things; say what each reads: readings={{{taken[sensor]!r}: ..., {name!r}: {sensor!r}}}"

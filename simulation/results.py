@@ -70,7 +70,17 @@ class Result:
         return [run for run in range(self.runs) if run not in self.judgements]
 
     def count(self, outcome: str) -> int:
-        """Return the number of runs with an outcome: "kept", "lost", "frozen"; or "finite", the first two together."""
+        """Return the number of runs with an outcome: "kept", "lost", "frozen"; or "finite", the first two together.
+
+        Raises
+        ------
+        ResultError
+            If there is no such outcome.
+        """
+        if outcome not in (*SUBSETS, *OUTCOMES):
+            raise ResultError(
+                f"there is no outcome {outcome!r}; there are {', '.join(dict.fromkeys((*OUTCOMES, *SUBSETS)))}"
+            )
         wanted = SUBSETS.get(outcome, (outcome,))
         return sum(item.outcome in wanted for item in self.judgements.values())
 

@@ -21,7 +21,7 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
 from .discretisation import noise_gain, transition
-from .errors import ModelError
+from .errors import ModelError, expect
 from .origins import said_at
 from .plant import Plant, Sensor, Symbol, wrap
 from .signals import WIDE, Signal
@@ -91,6 +91,13 @@ class OperatingPoint(Mapping[str, Any]):
         ModelError
             If a name is not known, or a value is outside its range or of another size.
         """
+        expect(plant, Plant, "an operating point: its plant", "a Plant")
+        expect(
+            {} if values is None else values,
+            (Mapping, OperatingPoint),
+            f"{plant.name}: the operating point",
+            "{state or input: value}",
+        )
         given = _everything(values) if isinstance(values, OperatingPoint) else _by_name(values or {})
         x, u, p = _vectors(plant, given, "the operating point")
         return cls(plant, _frozen(x), _frozen(u), _frozen(p), _frozen(_Equations(plant).residual(x, u, p)))

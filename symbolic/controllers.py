@@ -29,7 +29,7 @@ from .components import (
     seconds,
 )
 from .design import Gain, closed_loop_eigenvalues
-from .errors import ModelError
+from .errors import ModelError, yes_or_no
 from .filters import low_pass, notch, rate_limiter, saturation
 from .linear_systems import state_space, transfer_function
 from .plant import Plant, Symbol, wrap
@@ -127,6 +127,7 @@ def state_feedback(
     if not accept_unstable:
         _check_stable(plant, where, gain.dt if isinstance(gain, Gain) else None, K)
     block = Block(name, doc=doc or f'state feedback of the plant "{plant.name}": u = u* - K (x - x*)')
+    saturate = yes_or_no(saturate, f"{block.name}: saturate=")
     formula = _give_law(block, plant, _declare_feedback(block, plant, where, K), saturate)
     finish(block, {"step": formula}, _around(plant, where, K, saturate))
     if isinstance(gain, Gain):

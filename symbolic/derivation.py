@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..reference import estimators as textbook
 from .block import Block
-from .errors import ModelError
+from .errors import ModelError, expect
 from .expressions import equation_text, number_text, numpy_callable
 from .origins import Origin
 from .plant import Noise, Plant, Sensor, State, Symbol
@@ -48,6 +48,7 @@ class Derivation:
     def __init__(self, plant: Plant, name: str, doc: str, around: Mapping[Any, Any], *, estimates: bool = True):
         self.plant, self.name, self.around = plant, name, around
         what = "an estimator" if estimates else "a simulated plant"
+        expect(plant, Plant, f"{what}: its plant", "a discrete Plant")
         if not plant.is_discrete:
             raise ModelError(
                 f"{plant.name}: {what} runs in discrete time, and this plant is continuous; give it "
@@ -330,8 +331,11 @@ class Derivation:
 
 
 def name_of(key: Symbol | str) -> str:
-    """Return the name of a symbol, or the name itself."""
-    return key if isinstance(key, str) else key.signal.name
+    """Return the name of a symbol, or the name itself; refuse anything else."""
+    found = key if isinstance(key, str) else getattr(getattr(key, "signal", None), "name", None)
+    if not isinstance(found, str):
+        raise ModelError(f"{key!r} stands where a symbol of the plant or its name is needed; give one")
+    return found
 
 
 def dynamics_equations(plant: Plant) -> list[str]:

@@ -15,6 +15,7 @@ import casadi as ca
 import numpy as np
 from scipy.linalg import expm
 
+from .affinity import kink_in
 from .errors import ModelError
 from .plant import Discretisation, Plant
 
@@ -114,7 +115,7 @@ def linear_map(plant: Plant) -> tuple[ca.SX, ca.SX]:
         )
     rates = plant.without_noise(made.continuous.dynamics_expression())
     A = ca.jacobian(rates, plant.x)
-    if ca.depends_on(ca.vec(A), ca.vertcat(plant.x, plant.u)):
+    if ca.depends_on(ca.vec(A), ca.vertcat(plant.x, plant.u)) or kink_in(rates, plant.x, but_turns=True):
         raise ModelError(
             f"{plant.name}: {method} is for linear plants, and these dynamics are not; use 'euler' or 'rk4'"
         )

@@ -5,6 +5,8 @@ from __future__ import annotations
 import operator
 from typing import Any
 
+import numpy as np
+
 
 class ModelError(ValueError):
     """A model that cannot be compiled as it stands.
@@ -13,15 +15,15 @@ class ModelError(ValueError):
     """
 
 
-def expect(value: Any, kind: type, what: str, wanted: str) -> None:
+def expect(value: Any, kind: type | tuple[type, ...], what: str, wanted: str) -> None:
     """Refuse an argument of another kind than is wanted.
 
     Parameters
     ----------
     value : object
         What was given.
-    kind : type
-        What it has to be.
+    kind : type or tuple of types
+        What it has to be, or one of them.
     what : str
         The call and the argument, as the user wrote it.
     wanted : str
@@ -54,10 +56,21 @@ def whole(value: Any, what: str, lowest: int, highest: int | None = None) -> int
     return number
 
 
+def yes_or_no(value: Any, what: str) -> bool:
+    """Return a truth value, Python's or NumPy's.
+
+    Raises
+    ------
+    ModelError
+        If it is none: a pair of limits, say, would count as true.
+    """
+    if not isinstance(value, (bool, np.bool_)):
+        raise ModelError(f"{what} is {value!r}; give True or False")
+    return bool(value)
+
+
 def _told(value: Any) -> str:
-    name = getattr(value, "name", None)
-    return (
-        f"the {type(value).__name__} {name!r}"
-        if isinstance(name, str)
-        else f"{value!r}, of type {type(value).__name__}"
-    )
+    kind, name, shown = type(value).__name__, getattr(value, "name", None), repr(value)
+    if isinstance(name, str):
+        return f"the {kind} {name!r}"
+    return f"{shown}, of type {kind}" if len(shown) < 60 else f"of type {kind}"

@@ -14,10 +14,11 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..reference import estimators as textbook
+from .affinity import kink_in
 from .block import Block, DerivativeCheck, Scenario
 from .derivation import Derivation, Reads, dynamics_equations, known_sources, name_of, plant_equations
 from .discretisation import process_covariance, transition
-from .errors import ModelError
+from .errors import ModelError, expect
 from .expressions import equation_text, tape
 from .forms import Conventional, Rows, form_named
 from .kernels import SMALLEST_VARIANCE, Decorrelate, Pattern, Pivots
@@ -117,6 +118,7 @@ def extended_kalman_filter(
     ModelError
         If the plant is continuous, has no sensor, or an initial variance is missing.
     """
+    expect(plant, Plant, "extended_kalman_filter: the plant", "a discrete Plant")
     return filter_of(
         plant,
         None,
@@ -220,6 +222,7 @@ def kalman_filter(
     """
     from .analysis import linearised_plant
 
+    expect(plant, Plant, "kalman_filter: the plant", "a discrete Plant")
     linear = plant
     if at is not None:
         linear = linearised_plant(plant, at)
@@ -271,6 +274,7 @@ def steady_state_kalman_filter(
     """
     from .steady_state import build
 
+    expect(plant, Plant, "steady_state_kalman_filter: the plant", "a discrete Plant")
     return build(plant, around or {}, name or f"{plant.name}_sskf", doc, gain)
 
 
@@ -283,7 +287,9 @@ def is_linear(plant: Plant) -> bool:
     stacked = ca.vertcat(source.dynamics_expression(), *[sensor.expression for sensor in plant.sensors])
     jacobian = ca.jacobian(plant.without_noise(stacked), point)
     gains = ca.jacobian(stacked, plant.w) if plant.noises else ca.SX(0, 0)
-    return not ca.depends_on(ca.vertcat(ca.vec(jacobian), ca.vec(gains)), point)
+    if ca.depends_on(ca.vertcat(ca.vec(jacobian), ca.vec(gains)), point):
+        return False
+    return not kink_in(stacked, ca.vertcat(point, plant.w) if plant.noises else point, but_turns=True)
 
 
 @dataclass(frozen=True)

@@ -62,6 +62,10 @@ _OPERATION_NAMES = {getattr(ca, word): word[3:].lower() for word in dir(ca) if w
 PIECEWISE = frozenset({"saturation", "minimum", "maximum", "look_up", "look_up_slope"})
 """Functions of `piecewise` that are called in an expression and stay one step of a tape."""
 
+CALL_NODES = {f"plantc_{name}": name for name in sorted(PIECEWISE)}
+"""Name of the CasADi function that is called -> the operation on the tape. The names are reserved: a model's own function may
+be called "minimum", and is then seen through like any other."""
+
 TABLES = frozenset({"look_up", "look_up_slope"})
 """Those of a table: their arguments are x, the breakpoints, and as many values."""
 
@@ -114,7 +118,7 @@ def expand(function: ca.Function, owner: str) -> ca.Function:
         reason = str(error).strip().splitlines()[-1]
         raise ModelError(_not_expanded(owner, function, reason)) from None
     for called in _called(expanded):
-        if called.name() not in PIECEWISE and _inside(called) is None:
+        if called.name() not in CALL_NODES and _inside(called) is None:
             raise ModelError(_not_expanded(owner, function, "it calls a function whose inside is not seen"))
     return expanded
 
@@ -161,7 +165,7 @@ def _called(function: ca.Function) -> list[ca.Function]:
         if function.instruction_id(k) == ca.OP_CALL:
             called = values[k].which_function()
             found.append(called)
-            inside = None if called.name() in PIECEWISE else _inside(called)
+            inside = None if called.name() in CALL_NODES else _inside(called)
             found += [] if inside is None else _called(inside)
     return found
 
@@ -226,8 +230,8 @@ class _Reader:
 
     def call(self, called: ca.Function, arguments: list[int], caller: ca.Function) -> list[int]:
         """Return the steps that a call gives, one for each structural nonzero of its outputs."""
-        if called.name() in PIECEWISE:
-            return [self.record(Step(called.name(), tuple(arguments)))]
+        if called.name() in CALL_NODES:
+            return [self.record(Step(CALL_NODES[called.name()], tuple(arguments)))]
         inside = _inside(called)
         if inside is None:
             raise ModelError(_not_expanded(caller.name(), called, "its inside is not seen"))
@@ -308,13 +312,14 @@ def _extreme(a: Any, b: Any, is_first: Any) -> Any:
 
 
 def _saturation(x: Any, low: Any, high: Any) -> Any:
-    """Hold x between two limits; on one of them the derivative is the mean of both sides."""
+    """Hold x between two limits; on one of them the derivative is the mean of both sides. Where they meet or cross: high."""
     r, a, b = np.real(x), np.real(low), np.real(high)
     value = np.where(r < a, low, x)
     value = np.where(b < np.real(value), high, value)
     if np.iscomplexobj(value):
         value = np.where(r == a, np.real(value) + 0.5j * (np.imag(x) + np.imag(low)), value)
         value = np.where(r == b, np.real(value) + 0.5j * (np.imag(x) + np.imag(high)), value)
+        value = np.where(b <= a, np.real(value) + 1j * np.imag(high), value)
     return value
 
 

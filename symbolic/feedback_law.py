@@ -15,7 +15,7 @@ from .block import Block
 from .components import Calls, matrix_of
 from .controllers import deviation_from, gain_range
 from .design import Gain
-from .errors import ModelError
+from .errors import ModelError, yes_or_no
 from .exosystems import Exosystem
 from .plant import Plant, Symbol
 from .signal_generators import signal_groups
@@ -65,6 +65,9 @@ class FeedbackLaw:
     plant: Plant
     acting: tuple[Signal, ...]
     saturate: bool
+
+    def __post_init__(self) -> None:
+        yes_or_no(self.saturate, f"{self.plant.name}: saturate=")
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -19,9 +19,11 @@ from numpy.typing import NDArray
 
 from ..reference.jump_matrix import SMALLEST_DIFFERENCE, Choice, ErrorStep, JumpMap
 from ..reference.model import CarriedModel
+from .affinity import kink_in
 from .block import Block
+from .components import matrix_of
 from .derivation import name_of
-from .errors import ModelError
+from .errors import ModelError, expect
 from .estimators import CovarianceStep, filter_of
 from .exponentials import held_exponential
 from .expressions import equation_text, numpy_callable
@@ -150,7 +152,7 @@ class JumpModel:
         gain : array (m, N)
             F.
         """
-        F = np.atleast_2d(np.asarray(gain, dtype=float))
+        F = matrix_of(self.plant.name, "the gain", gain)
         if F.shape != (self.B.shape[1], len(self.Phi)):
             raise ModelError(
                 f"{self.plant.name}: the gain has shape {F.shape}; give one row for each of the {self.B.shape[1]} inputs, and one "
@@ -202,6 +204,12 @@ def jump_model(
         If the plant is discrete or has an attitude; if a subexpression does not occur; if the rest is not affine in states, inputs
         and noises, or a coefficient of it depends on a parameter; if a noise stands inside a nonlinearity and outside of it.
     """
+    expect(plant, Plant, "jump_model: the plant", "a continuous Plant")
+    expect(
+        order if order is not None else (), (list, tuple), f"{plant.name}: order", "a list of states and nonlinearities"
+    )
+    for what, table in (("units", units), ("ranges", ranges)):
+        expect(table or {}, Mapping, f"{plant.name}: {what}", "a dictionary by the names of the nonlinearities")
     return _Construction(plant, nonlinearities, dt, order, units or {}, ranges or {}).build()
 
 
@@ -322,6 +330,7 @@ class _Construction:
         moving = ca.vertcat(plant.x, plant.u, noises)
         jacobian = ca.sparsify(ca.jacobian(rates, moving))
         self._refuse_coefficients(jacobian, moving)
+        self._refuse_kinks(rates, moving)
         numbers = np.array(ca.DM(ca.evalf(ca.densify(jacobian))), dtype=float).reshape(self.size, moving.numel())
         constant = ca.substitute(rates, moving, ca.DM.zeros(moving.numel()))
         n, m = self.size, plant.u.numel()
@@ -346,6 +355,18 @@ class _Construction:
                 f"{plant.name}: the coefficient {text} of {by!r} in the dynamics of {rows[i]!r} depends on a run-time parameter, "
                 "and the exact step is computed at export; make it a constant, or name the product as a nonlinearity"
             )
+
+    def _refuse_kinks(self, rates: ca.SX, moving: ca.SX) -> None:
+        """Refuse what jumps or has a kink: its derivative may be zero, and it would be held at its value at zero."""
+        rows = [name for state in self.plant.states for name in [state.signal.name] * state.signal.size]
+        for i in range(self.size):
+            found = kink_in(rates[i], moving)
+            if found:
+                named = f" besides {', '.join(self.phis)}" if self.phis else ""
+                raise ModelError(
+                    f"{self.original.name}: the dynamics of {rows[i]!r} are not affine{named}: they hold {found}, which has a jump "
+                    "or a kink; name that nonlinear subexpression too"
+                )
 
     def _process_noises(self) -> list[Noise]:
         """Return the noises of the dynamics, with what they are per step."""
@@ -559,8 +580,8 @@ def _error_step(model: JumpModel, a: Choice, transition: Any) -> CovarianceStep:
     plant, n = model.plant, len(model.Phi)
     given = None
     if transition is not None:
-        given = np.array(transition, dtype=float)
-        if given.shape != (n, n) or not np.all(np.isfinite(given)):
+        given = matrix_of(plant.name, "covariance_transition", transition)
+        if given.shape != (n, n):
             raise ModelError(
                 f"{plant.name}: covariance_transition has shape {given.shape}; give finite numbers, {n} x {n}, in the order "
                 f"{', '.join(state.signal.name for state in plant.states)}"

@@ -24,7 +24,11 @@ MOST_BREAKPOINTS = 4096
 def _call_node(
     name: str, arguments: Sequence[ca.SX], value: ca.SX, slopes: Sequence[ca.SX], names: Sequence[str]
 ) -> ca.Function:
-    """Return a function that stays one node of an expression, and is differentiated by the slopes given."""
+    """Return a function that stays one node of an expression, and is differentiated by the slopes given.
+
+    Its CasADi name is the reserved one (`expressions.CALL_NODES`), by which a tape knows it.
+    """
+    name = f"plantc_{name}"
     result = ca.SX.sym("result")  # CasADi hands it to a derivative, which does not need it
     derivative = ca.Function(
         f"jac_{name}",
@@ -41,13 +45,23 @@ def _call_node(
 
 
 @lru_cache
-def _saturation_node() -> ca.Function:
+def _saturation_node(ordered: bool) -> ca.Function:
+    """Return the saturation; `ordered` says that the lower limit is known to be the lower, which makes the slopes shorter."""
     x, low, high = ca.SX.sym("x"), ca.SX.sym("low"), ca.SX.sym("high")
     raised = ca.if_else(x < low, low, x)
     value = ca.if_else(high < raised, high, raised)
-    inside = ca.if_else(ca.logic_and(low < x, x < high), 1.0, ca.if_else(ca.logic_and(low <= x, x <= high), 0.5, 0.0))
-    below = ca.if_else(x < low, 1.0, ca.if_else(x <= low, 0.5, 0.0))
-    above = ca.if_else(high < x, 1.0, ca.if_else(high <= x, 0.5, 0.0))
+    half, under, at_low = ca.logic_and(low <= x, x <= high), x < low, x <= low
+    over, at_high = high < x, high <= x
+    if not ordered:  # where the limits meet or cross, the value is `high`, and the slopes are its
+        half = ca.logic_or(ca.logic_and(low <= x, x < high), ca.logic_and(low < x, x <= high))
+        under, at_low, over = (
+            ca.logic_and(under, low < high),
+            ca.logic_and(at_low, low < high),
+            ca.logic_or(over, high <= low),
+        )
+    inside = ca.if_else(ca.logic_and(low < x, x < high), 1.0, ca.if_else(half, 0.5, 0.0))
+    below = ca.if_else(under, 1.0, ca.if_else(at_low, 0.5, 0.0))
+    above = ca.if_else(over, 1.0, ca.if_else(at_high, 0.5, 0.0))
     return _call_node("saturation", [x, low, high], value, [inside, below, above], ["x", "low", "high"])
 
 
@@ -104,8 +118,13 @@ def called(operation: str, arguments: Sequence[ca.SX]) -> ca.SX:
         count = len(rest) // 2
         node = _look_up_node(count) if operation == "look_up" else _look_up_slope_node(count)
         return ca.SX(node(x, ca.vertcat(*rest[:count]), ca.vertcat(*rest[count:])))
-    node = _saturation_node() if operation == "saturation" else _extreme_node(operation)
+    node = _saturation_node(_are_ordered(*arguments[1:])) if operation == "saturation" else _extreme_node(operation)
     return ca.SX(node(*arguments))
+
+
+def _are_ordered(low: ca.SX, high: ca.SX) -> bool:
+    """Whether two limits are numbers, the first below the second."""
+    return low.is_constant() and high.is_constant() and float(low) < float(high)
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -124,7 +143,8 @@ def saturated(x: Any, low: Any, high: Any) -> ca.SX:
         Scalar, or a vector, of which each element is held.
     low, high : casadi.SX or number
         The limits, scalar or of the size of x; numbers, parameters or expressions. That low < high is the model's business
-        where they are no numbers: where it does not hold, `high` wins.
+        where they are no numbers: where it does not hold (low >= high), `high` wins: it is the value, the derivative by it is
+        1, and that by x and by `low` is 0.
 
     Returns
     -------
@@ -144,13 +164,13 @@ def saturated(x: Any, low: Any, high: Any) -> ca.SX:
     >>> Function("both", [x], [y, jacobian(y, x)])(0.1)
     (DM(1), DM(5))
     """
-    ends = [_expression("saturated", item) for item in (low, high)]
+    ends = [as_expression("saturated", item) for item in (low, high)]
     if all(item.is_constant() for item in ends):
         pairs = zip(*np.broadcast_arrays(*[np.array(ca.DM(item)).ravel() for item in ends]), strict=True)
         for first, second in pairs:
             if not first < second:
                 raise ModelError(f"saturated: the limits are {first:g} and {second:g}; give the lower one first")
-    return _elementwise("saturated", _saturation_node(), x, low, high)
+    return _elementwise("saturated", lambda *own: called("saturation", own), x, low, high)
 
 
 def dead_zone(x: Any, low: Any, high: Any) -> ca.SX:
@@ -170,7 +190,7 @@ def dead_zone(x: Any, low: Any, high: Any) -> ca.SX:
     ModelError
         As `saturated`.
     """
-    return _expression("dead_zone", x) - saturated(x, low, high)
+    return as_expression("dead_zone", x) - saturated(x, low, high)
 
 
 def relay(x: Any, amplitude: Any = 1.0, *, at_zero: Any = 0.0) -> ca.SX:
@@ -192,7 +212,7 @@ def relay(x: Any, amplitude: Any = 1.0, *, at_zero: Any = 0.0) -> ca.SX:
     ModelError
         If an argument is no expression.
     """
-    signal, size, middle = (_expression("relay", item) for item in (x, amplitude, at_zero))
+    signal, size, middle = (as_expression("relay", item) for item in (x, amplitude, at_zero))
     answer = size * ca.sign(signal)
     if middle.is_constant() and not np.any(np.array(ca.DM(middle))):
         return answer
@@ -281,7 +301,7 @@ def look_up(x: Any, breakpoints: Any, values: Any) -> ca.SX:
                 f"look_up: the slope between the breakpoints {at[k]:g} and {at[k + 1]:g} is not finite; move them apart"
             )
     node = _look_up_node(len(at))
-    return _mapped(lambda item: ca.SX(node(item, ca.SX(ca.DM(at)), ca.SX(ca.DM(of)))), _expression("look_up", x))
+    return _mapped(lambda item: ca.SX(node(item, ca.SX(ca.DM(at)), ca.SX(ca.DM(of)))), as_expression("look_up", x))
 
 
 def _numbers(what: str, given: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
@@ -295,8 +315,14 @@ def _numbers(what: str, given: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
     return numbers
 
 
-def _expression(owner: str, item: Any) -> ca.SX:
-    """Return an argument as a dense SX expression."""
+def as_expression(owner: str, item: Any) -> ca.SX:
+    """Return an argument as a dense SX expression.
+
+    Raises
+    ------
+    ModelError
+        If it is none.
+    """
     try:
         return ca.densify(ca.SX(item))
     except (NotImplementedError, TypeError, RuntimeError):
@@ -311,8 +337,8 @@ def _mapped(function: Callable[..., ca.SX], *arguments: ca.SX) -> ca.SX:
     return ca.reshape(ca.vertcat(ca.SX(0, 1), *parts), *shape)
 
 
-def _elementwise(owner: str, node: ca.Function, *given: Any) -> ca.SX:
-    arguments = [_expression(owner, item) for item in given]
+def _elementwise(owner: str, node: Callable[..., ca.SX], *given: Any) -> ca.SX:
+    arguments = [as_expression(owner, item) for item in given]
     shapes = {item.shape for item in arguments if not item.is_scalar()}
     if len(shapes) > 1:
         raise ModelError(f"{owner}: the arguments have the shapes {sorted(shapes)}; give scalars, or one shape")

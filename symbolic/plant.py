@@ -300,6 +300,10 @@ class Plant:
             raise ModelError(
                 f"{self.name}: this plant was made by discretise() and has its dynamics; call dynamics() on the continuous plant"
             )
+        if self._dynamics:
+            raise ModelError(
+                f"{self.name}: its dynamics are given already; give the rates of all states in one dictionary"
+            )
         known = {state.signal.name: state for state in self.states}
         if not isinstance(rates, Mapping):
             raise ModelError(

@@ -11,9 +11,10 @@ import casadi as ca
 import numpy as np
 
 from ..reference import sliding_mode as reference
+from .affinity import kink_in
 from .block import Block
 from .components import Calls, Ends, finish, is_number, middle_of, rounded_up
-from .errors import ModelError
+from .errors import ModelError, expect
 from .expressions import equation_text, numpy_callable
 from .fuzzy import FuzzySystem
 from .intervals import Interval, bounds
@@ -38,13 +39,16 @@ SAMPLES = 2001
 # -- switching terms --------------------------------------------------------------------------------------------------
 
 
+_KINDS = ("sign", "boundary_layer", "tanh", "fuzzy")
+
+
 @dataclass(frozen=True)
 class Switching:
     """What takes the place of sgn(s) in a sliding mode law: made by `sign`, `boundary_layer`, `tanh` and `fuzzy`.
 
     Attributes
     ----------
-    kind : str
+    kind : {"sign", "boundary_layer", "tanh", "fuzzy"}
     width : float
         Of the surface, in its unit; a run-time parameter of the law. 0 for the sign, which has none.
     system : FuzzySystem, optional
@@ -56,6 +60,13 @@ class Switching:
     system: FuzzySystem | None = None
 
     def __post_init__(self) -> None:
+        if self.kind not in _KINDS:
+            raise ModelError(f"the switching term is of the kind {self.kind!r}; give one of {', '.join(_KINDS)}")
+        if (self.kind == "fuzzy") != isinstance(self.system, FuzzySystem):
+            raise ModelError(
+                f"{self.kind}: the fuzzy system of the switching term is {self.system!r}; take fuzzy(system, width) for one with "
+                "a system, and sign(), boundary_layer(width) or tanh(width) for one without"
+            )
         if self.kind != "sign" and not (is_number(self.width) and self.width > 0):
             raise ModelError(
                 f"{self.kind}: the width is {self.width!r}; give a positive number, in the unit of the surface"
@@ -308,7 +319,11 @@ def sliding_mode(
     >>> [item.name for item in law.entries["step"].outputs]
     ['force', 'surface_position', 'switching_gain_position']
     """
+    expect(plant, Plant, "sliding_mode: the plant", "the Plant that the law is of")
     name = name or f"{plant.name}_sliding_mode"
+    if least is not None:
+        expect(least, Mapping, f"{name}: least", "a dictionary, output -> number at which its input gain is held")
+    expect(wrapped, (list, tuple, set, frozenset), f"{name}: wrapped", "a list of outputs, also where it is one")
     source = _continuous(name, plant)
     channels = _channels(name, source, commands, (surface, mu, gain, switching), least or {}, saturate, wrapped)
     block = Block(
@@ -366,6 +381,10 @@ def _channels(
     """Return the channels, derived and judged."""
     if not isinstance(commands, Mapping) or not commands:
         raise ModelError(f"{name}: the commands are {commands!r}; give a dictionary, state -> input that moves it")
+    if not isinstance(saturate, (bool, np.bool_, Mapping)):
+        raise ModelError(
+            f"{name}: saturate is {saturate!r}; give True for the range of each command, or a dictionary, input -> (low, high)"
+        )
     states = {state.signal.name: state for state in plant.states}
     inputs = {symbol.signal.name: symbol for symbol in plant.inputs}
     pairs = [
@@ -401,7 +420,11 @@ def _channels(
                 "fuzzy(system, width)"
             )
         signal = symbol.signal
-        within = (signal.low[0], signal.high[0]) if saturate is True else _within(name, signal, ends.get(command))
+        within = (
+            (signal.low[0], signal.high[0])
+            if saturate and not isinstance(saturate, Mapping)
+            else _within(name, signal, ends.get(command))
+        )
         floor = _floor(name, plant, state, g, floors.get(output), answer)
         answer.append(
             _Channel(state, symbol, rate, f, g, term, numbers, floor, within, state.signal.angle or output in turning)
@@ -497,7 +520,7 @@ def _derived(name: str, plant: Plant, state: State, command: Symbol, later: list
         raise ModelError(
             f"{name}: the input {moved!r} does not move the second derivative of {output!r}; name one that does"
         )
-    if ca.depends_on(g, command):
+    if ca.depends_on(g, command) or kink_in(second, ca.SX(command)):
         raise ModelError(
             f"{name}: the second derivative of {output!r} is not affine in {moved!r}, so that it is not f + g u; declare what it "
             "is affine in as the input"
@@ -525,13 +548,20 @@ def _floor(
 ) -> float | None:
     """Return what g is held at, or None where its ranges say that it never vanishes."""
     output = state.signal.name
+    if least is not None and (not is_number(least) or least == 0):
+        raise ModelError(
+            f"{name}: least of {output!r} is {least!r}; give a number that is not zero, with the sign of g"
+        )
+    low, high = _bounds_of(g, plant, before)
     if least is not None:
-        if not is_number(least) or least == 0:
+        # held by a bound that g never passes, it would be another number than g, everywhere, maybe of the other sign
+        if least > high or least < low:
             raise ModelError(
-                f"{name}: least of {output!r} is {least!r}; give a number that is not zero, with the sign of g"
+                f"{name}: least of {output!r} is {least:g}, and what the command is multiplied by in its second derivative, "
+                f"{equation_text(g, plant.symbol_names())[0]}, is by its ranges in {low:.4g} .. {high:.4g}, so that it would "
+                "always be held; give a number in there, with its sign"
             )
         return float(least)
-    low, high = _bounds_of(g, plant, before)
     if low <= 0 <= high or not math.isfinite(1 / low) or not math.isfinite(1 / high):
         text = equation_text(g, plant.symbol_names())[0]
         raise ModelError(

@@ -198,6 +198,31 @@ def test_a_reading_is_given_to_one_input_unless_it_is_said():
         closed_loop(plant, both, {}, readings={"generator_gauge": "wihs"})
 
 
+def test_an_input_is_not_taken_for_a_sensor_that_another_claims():
+    """A law has inputs p and reference_p; only the first can mean the sensor p, however it was told."""
+    plant = Plant("tank", dt=1.0)
+    p, q = plant.state("tp"), plant.state("tq")
+    flow = plant.input("flow")
+    plant.dynamics({p: 0.9 * p + flow, q: q})
+    plant.sensor("p", p, variance=0.01)
+    plant.sensor("q", q, variance=0.01)
+    for inputs in (["p", "reference_p"], ["reference_p", "p"]):
+        law = controller_of(inputs, ["flow"])
+        both = "'p' and 'reference_p' are both named after the sensor 'p'"
+        for told in ({}, {"held": {"p": 1.0}}, {"readings": {"p": "q"}}):
+            with pytest.raises(ModelError, match=both):
+                closed_loop(plant, law, {}, **told)
+        with pytest.raises(
+            ModelError, match=r"its input 'reference_p' is .*'p', which readings= gives to 'p', .* held="
+        ):
+            closed_loop(plant, law, {}, readings={"p": "p"})
+        assert closed_loop(plant, law, {}, held={"reference_p": 0.0}).readings == {"p": "p"}
+        for given in ({"reference_p": "q"}, {"reference_p": "p"}):
+            assert closed_loop(plant, law, {}, readings=given).readings == {"p": "p"} | given
+    with pytest.raises(ModelError, match="'part_p' is named after the sensor 'p', which readings= gives to 'other'"):
+        closed_loop(plant, controller_of(["other", "part_p"], ["flow"]), {}, readings={"other": "p"})
+
+
 def test_what_is_of_another_kind_is_said():
     plant = Plant("tank", dt=1.0)
     level = plant.state("level")

@@ -233,6 +233,13 @@ def test_what_is_not_known_is_said(tank, given, message):
         monte_carlo(tank, **({"runs": 1, "steps": 1} | given))
 
 
+def test_an_outcome_that_there_is_not_is_said(tank):
+    result = monte_carlo(tank, runs=2, steps=3)
+    assert [result.count(item) for item in ("kept", "lost", "frozen", "finite")] == [2, 0, 0, 2]
+    with pytest.raises(ResultError, match="there is no outcome 'keep'; there are kept, lost, frozen, finite"):
+        result.count("keep")
+
+
 def test_what_is_no_loop_is_said_and_whole_numbers_of_numpy_are_taken(tank):
     with pytest.raises(ModelError, match=r"the loop is the Block 'tank_loop'; give what closed_loop"):
         monte_carlo(tank.block, runs=1, steps=1)

@@ -223,6 +223,7 @@ def test_what_c_does_with_what_is_no_number():
 SETS = FuzzySet.partition({"N": -1, "P": 1})
 IN, OUT = FuzzyInput("x", (-1, 1), SETS), FuzzyOutput("y", {"N": -1, "P": 1})
 BOTH = [("N", "N"), ("P", "P")]
+SAME = ("N",)
 
 
 @pytest.mark.parametrize(
@@ -243,6 +244,20 @@ BOTH = [("N", "N"), ("P", "P")]
         (lambda: FuzzySystem(IN, OUT, [("N", "N", 0.0), ("P", "P")]), "give more than 0 and at most 1"),
         (lambda: FuzzySystem(IN, OUT, ["N"]), "is no \\(labels in, labels out\\)"),
         (lambda: FuzzySystem(IN, OUT, [*BOTH, ("N", "P")]), r"two rules are about \('N',\)"),
+        (lambda: FuzzySet.partition([-1, 0, 1]), r"peaks is \[-1, 0, 1\], of type list; give a dictionary"),
+        (lambda: FuzzySet.partition({"N": "a", "P": 0}), r"the peaks of a partition are \['a', 0\]; give finite numbers"),
+        (lambda: FuzzyInput("x", (-1, 1), None), "x: sets is None, of type NoneType; give a list of FuzzySet"),
+        (lambda: FuzzyInput("x", (-1, 1), ["N"]), "x: one of the sets is 'N', of type str; give a list of FuzzySet"),
+        (lambda: FuzzyOutput("y", 5), "y: sets is 5, of type int; give a dictionary, label -> number"),
+        (lambda: FuzzySystem(5, OUT, BOTH), "inputs is 5, of type int; give a FuzzyInput, or a list of them"),
+        (lambda: FuzzySystem(OUT, OUT, BOTH), "inputs is the FuzzyOutput 'y'; give a FuzzyInput, or a list of them"),
+        (lambda: FuzzySystem(IN, ["y"], BOTH), "one of the outputs is 'y', of type str; give a FuzzyOutput"),
+        (lambda: FuzzySystem(IN, OUT, None), r"rules is None, of type NoneType; give a list of \(labels in, labels out\)"),
+        (lambda: FuzzySystem(IN, OUT, [(1, "N")]), "says 1 of 'x', whose labels are N, P"),
+        (lambda: FuzzySystem(IN, OUT, BOTH)("a"), "the input 'x': 'a' is no SX expression and no number"),
+        (lambda: FuzzySystem(IN, OUT, BOTH).block("b", ranges=[1]), r"b: ranges is \[1\], of type list; give a dictionary"),
+        (lambda: FuzzySystem(IN, OUT, [*BOTH, BOTH[1]]), r"two rules are about \('P',\)"),
+        (lambda: FuzzySystem(IN, OUT, [("N", SAME), ("N", SAME), ("P", "P")]), r"two rules are about \('N',\)"),
         (lambda: FuzzySystem(IN, OUT, []), "no input, no output or no rule"),
         (lambda: FuzzySystem(IN, OUT, [(None, "N")]), "no rule asks for 'x'"),
         (lambda: FuzzySystem(IN, OUT, [("N", "N")]), "at x = 1 no rule answers"),

@@ -187,6 +187,9 @@ def test_refusals():
     says("two nonlinearities are the same", named=lambda a, r: {"one": sin(a), "other": sin(a)})
     says("seconds per step", dt=-1.0)
     says("give each state and nonlinearity once", order=["angle", "rate"])
+    says("order is 'angle', of type str; give a list of states", order="angle")
+    says("None stands where a symbol of the plant or its name is needed", order=[None])
+    says("units is ['m'], of type list; give a dictionary", units=["m"])
     says("ranges= names 'friction'", ranges={"friction": (0, 1)})
     says("is used twice", named=lambda a, r: {"rate": sin(a)})
     says("grows beyond all numbers", dt=1e6, changed={"angle": lambda a, r, u, w: a + r})
@@ -228,6 +231,12 @@ def test_a_discrete_plant_and_an_attitude_are_refused():
 
 def test_refusals_of_the_estimator():
     model = made()
+    with pytest.raises(ModelError, match="jump_model: the plant is None, of type NoneType; give a continuous Plant"):
+        jump_model(None, {}, 0.01)
+    with pytest.raises(ModelError, match="covariance_transition is 'Phi'; give a matrix of numbers"):
+        jump_matrix_estimator(model, covariance_transition="Phi", initial_variance=1.0)
+    with pytest.raises(ModelError, match="the gain is 'a'; give a matrix of numbers"):
+        model.closed_transition("a")
     with pytest.raises(ModelError, match="a is 'both'; take one of 'jacobian', 'identity', 'online'"):
         jump_matrix_estimator(model, "both", initial_variance=1.0)
     with pytest.raises(ModelError, match="covariance_transition has shape"):

@@ -5,8 +5,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from plantc.codegen.crosscheck import cross_check
 from plantc.symbolic import ModelError, Plant, sign
-from plantc.symbolic.expressions import Pieces, equation_text, expand, numpy_callable, tape
+from plantc.symbolic.estimators import extended_kalman_filter
+from plantc.symbolic.expressions import PIECEWISE, Pieces, equation_text, expand, numpy_callable, tape
 from plantc.symbolic.jump_matrix import jump_model
 from plantc.symbolic.piecewise import dead_zone, look_up, maximum, minimum, relay, saturated
 
@@ -118,10 +120,49 @@ def test_any_table_is_that_of_numpy(points, x):
 
 @pytest.mark.parametrize("limit", [-1.0, 2.0])
 def test_on_a_limit_half_of_its_own_change_comes_through(limit):
-    slopes = ca.Function("s", [X, Y], [ca.jacobian(saturated(X, -1, Y), Y), ca.jacobian(saturated(X, Y, 9), Y)])
+    slopes = ca.Function("s", [X, Y], [ca.jacobian(saturated(X, -3, Y), Y), ca.jacobian(saturated(X, Y, 9), Y)])
     assert [float(item) for item in slopes(limit, limit)] == [0.5, 0.5]
     assert [float(item) for item in slopes(limit + 1, limit)] == [1.0, 0.0]
     assert [float(item) for item in slopes(limit - 1, limit)] == [0.0, 1.0]
+
+
+@pytest.mark.parametrize("low", [-1.0, 0.5, 2.0])
+@pytest.mark.parametrize("high", [-1.0, 0.5, 2.0])
+@pytest.mark.parametrize("x", [-3.0, -1.0, 0.0, 0.5, 1.0, 2.0, 3.0])
+def test_where_limits_meet_or_cross_the_upper_one_wins_in_value_and_slopes(x, low, high):
+    """By CasADi, by NumPy and its complex step; where they do neither, the slopes are those of the sides, as ever."""
+    z = ca.SX.sym("z", 3)
+    held = saturated(z[0], z[1], z[2])
+    value, slopes = ca.Function("value", [z], [held]), ca.Function("slopes", [z], [ca.jacobian(held, z)])
+    at = np.array([x, low, high])
+    if low >= high:
+        expected = high, [0.0, 0.0, 1.0]
+    else:
+        expected = np.clip(x, low, high), [
+            1.0 * (low < x < high) + 0.5 * (x in (low, high)), 1.0 * (x < low) + 0.5 * (x == low),
+            1.0 * (x > high) + 0.5 * (x == high),
+        ]  # fmt: skip
+    lowered = numpy_callable(value)
+    complex_step = [np.imag(lowered(at + 1j * STEP * row)[0][0]) / STEP for row in np.eye(3)]
+    for found in (
+        (float(value(at)), np.array(ca.DM(slopes(at))).ravel()),
+        (float(lowered(at)[0][0]), complex_step),
+        (float(lowered(at)[0][0]), np.ravel(numpy_callable(slopes)(at)[0])),
+    ):
+        assert found[0] == expected[0]
+        np.testing.assert_allclose(found[1], expected[1], rtol=1e-14, atol=1e-14)
+
+
+def test_a_filter_whose_limits_cross_gives_the_same_in_c_and_in_the_oracle():
+    plant = Plant("crossing")
+    a, b, c = (plant.state(name, range=(-2, 2)) for name in "abc")
+    w = plant.noise("w", size=3, density=0.1)
+    plant.dynamics({a: saturated(a, b, c) - a + w[0], b: -b + w[1], c: -c + w[2]})
+    plant.sensor("z", ca.vertcat(a, b, c), variance=0.1)
+    block = extended_kalman_filter(
+        plant.discretise("euler", dt=0.1), initial_variance={a: 1.0, b: 1.0, c: 1.0}, around={a: 0.5, b: 1.0, c: -1.0}
+    )
+    assert cross_check(block, "double", steps=20).passed
 
 
 def test_a_relay_has_a_value_at_zero_and_no_derivative():
@@ -201,6 +242,15 @@ def test_a_called_function_is_seen_through():
     value = ca.Function("value", [X], [called(X, 2)[0] + called(X, 2)[1]])
     assert expand(value, "value") is value
     assert numpy_callable(value)(np.array([0.3]))[0][0] == pytest.approx(0.6 + np.sin(0.3))
+
+
+@pytest.mark.parametrize("name", sorted(PIECEWISE))
+def test_a_function_of_ones_own_may_have_the_name_of_one_of_ours(name):
+    soft = ca.Function(name, [X, Y], [-ca.log(ca.exp(-X) + ca.exp(-Y))], {"never_inline": True})
+    value = ca.Function("value", [X, Y], [soft(X, Y)])
+    assert expand(value, "value") is value
+    assert numpy_callable(value)(np.zeros(1), np.zeros(1))[0][0] == pytest.approx(-np.log(2))
+    assert {step.operation for step in tape(value).steps}.isdisjoint(PIECEWISE)
 
 
 def test_their_text_is_short():

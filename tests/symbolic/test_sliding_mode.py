@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from plantc.reference import sliding_mode as textbook
 from plantc.symbolic import cos, sin, sqrt
-from plantc.symbolic.sliding_mode import boundary_layer, fuzzy, sign, tanh
+from plantc.symbolic.sliding_mode import Switching, boundary_layer, fuzzy, sign, tanh
 
 from plantc import (
     FuzzyInput,
@@ -411,9 +411,11 @@ def test_a_command_out_of_range_is_refused_or_held():
     held = NativeView(cart(saturate={"push": (-1.0, 2.0)}))
     status, out = called(held, **far)
     assert (status, out["push"]) == (Status.CLAMPED, -1.0)
-    whole = NativeView(cart(saturate=True))
-    status, out = called(whole, whole.params(mu_place=5.0), **far)
-    assert (status, out["push"]) == (Status.CLAMPED, -200.0)
+    for yes in (True, np.True_):
+        whole = NativeView(cart(saturate=yes))
+        status, out = called(whole, whole.params(mu_place=5.0), **far)
+        assert (status, out["push"]) == (Status.CLAMPED, -200.0)
+    assert called(NativeView(cart(saturate=np.False_)), view.params(mu_place=5.0), **far)[0] == Status.OVERFLOW
 
 
 def test_beyond_its_tilt_the_input_gain_is_held():
@@ -531,6 +533,20 @@ GIVEN = {"surface": 1.0, "gain": 1.0, "switching": sign()}
         (lambda: sliding_mode(plain(), {"x": "u"}, **GIVEN | {"switching": "sign"}), r"'x' is 'sign'; give sign\(\), boundary_layer"),
         (lambda: sliding_mode(plain(), {"x": "u"}, saturate={"u": (0, 9)}, **GIVEN), r"held within \(0, 9\); give .* inside its range -5 .. 5"),
         (lambda: sliding_mode(plain(), {"x": "u"}, saturate={"w": (0, 1)}, **GIVEN), r"saturate= names \['w'\]; it may name u"),
+        (lambda: sliding_mode(3, {"x": "u"}, **GIVEN), "the plant is 3, of type int; give the Plant that the law is of"),
+        (lambda: sliding_mode(plain(), {"x": "u"}, least=0.2, **GIVEN), "least is 0.2, of type float; give a dictionary"),
+        (lambda: sliding_mode(plain(), {"x": "u"}, wrapped="x", **GIVEN), "wrapped is 'x', of type str; give a list of outputs"),
+        (lambda: Switching("boundry", 0.1), "of the kind 'boundry'; give one of sign, boundary_layer, tanh, fuzzy"),
+        (lambda: Switching("fuzzy", 0.1), "the fuzzy system of the switching term is None; take fuzzy"),
+        (lambda: sliding_mode(plain(), {"x": "u"}, saturate=(-1, 1), **GIVEN), r"saturate is \(-1, 1\); give True for the range"),
+        (lambda: sliding_mode(plain(), {"x": "u"}, saturate=1, **GIVEN), "saturate is 1; give True for the range"),
+        (lambda: sliding_mode(plain(), {"x": "u"}, saturate=None, **GIVEN), "saturate is None; give True for the range"),
+        (lambda: sliding_mode(plain(), {"x": "u"}, least={"x": -0.1}, **GIVEN), r"least of 'x' is -0.1, .* 1, is by its ranges in 1 .. 1"),
+        (lambda: sliding_mode(plain(), {"x": "u"}, least={"x": 1.1}, **GIVEN), "least of 'x' is 1.1, .* always be held"),
+        (
+            lambda: sliding_mode(plain(lambda x, v, u: {x: v, v: -(3 + x) * u}), {"x": "u"}, least={"x": 0.1}, **GIVEN),
+            "least of 'x' is 0.1, .* in -5 .. -1, so that",
+        ),
         (lambda: sliding_mode(plain(), {"x": "u"}, wrapped=["v"], **GIVEN), r"wrapped= names \['v'\]; it may name x"),
         (lambda: sliding_mode(_spinning(), {"q": "torque"}, **GIVEN), "'torque' has 3 elements; declare them as scalars|'q' has 4 elements"),
         (lambda: sliding_mode(plain(), {"x": "u"}, least={3: 1.0}, **GIVEN), r"least= names \['3'\]; it may name x"),
