@@ -185,7 +185,8 @@ def jump_model(
     nonlinearities : dict
         Name -> the memoryless subexpression of the dynamics that is held over the step, a scalar or a column vector. It may
         depend on states, inputs, parameters, noises, and on other nonlinearities that are part of it. An input or noise inside
-        it is taken at the end of the step.
+        it is taken at the end of the step, and moves the rest from the next step on: one step of dead time. For a controlled
+        loop take `JumpModel.one_step`, in which it acts at once.
     dt : float
         Seconds per step.
     order : sequence of str or Symbol, optional

@@ -68,6 +68,19 @@ def made(**options):
     return jump_model(plant, {"gravity": sin(angle)}, 0.01, **options)
 
 
+def test_an_input_inside_a_nonlinearity_has_one_step_of_dead_time_and_in_the_one_step_map_none():
+    plant, _, _ = pendulum(rate=lambda angle, rate, torque, w: -0.2 * rate + sin(torque) + w)
+    model = jump_model(plant, {"push": sin(plant.inputs[0])}, 0.01)
+    moved = [0.0, 0.0, 0.0]
+    moved = evaluated(model, model.plant.dynamics_expression(), moved, [1.0], [0.0]).ravel()
+    assert moved.tolist() == [0, 0, np.sin(1.0)]
+    moved = evaluated(model, model.plant.dynamics_expression(), moved, [1.0], [0.0]).ravel()
+    one = model.one_step
+    at_once = ca.Function("one", [one.x, one.u], [one.without_noise(one.dynamics_expression())])([0, 0], [1])
+    assert moved[:2] == pytest.approx(np.array(at_once).ravel(), rel=1e-12)
+    assert moved[1] == pytest.approx(0.01 * np.sin(1.0), rel=0.01)
+
+
 def test_the_step_is_the_projection_and_the_jump():
     model = made()
     plant = model.plant
