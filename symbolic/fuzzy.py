@@ -10,14 +10,17 @@ from typing import Any, Literal
 
 import casadi as ca
 import numpy as np
+from numpy.typing import NDArray
 
-from ..reference.fuzzy import Corners, Fuzzy, area_and_moment, midpoints
+from ..reference.fuzzy import Corners, Fuzzy
 from .block import Block
 from .components import Ends, finish, is_number, wandering
 from .errors import ModelError, expect, whole
 from .names import check_name, check_unique
 from .piecewise import as_expression, maximum, minimum, saturated
 from .signals import WIDE, make_range
+
+Array = NDArray[Any]
 
 LEAST_STRENGTH = 1.0e-6
 """Sum of the rules' strengths below which a corner of the inputs counts as not covered: float divides by it."""
@@ -456,6 +459,24 @@ class FuzzySystem:
             more = 0.2 * (high - low)
             near[item.name] = max(low - more, signal.low[0]), min(high + more, signal.high[0])
         return finish(block, {"step": self.reference().step}, wandering(near))
+
+
+def area_and_moment(corners: Corners, height: Any) -> tuple[Any, Any]:
+    """Return the integrals of m(y) and y m(y) over a trapezoid cut off at a height, as that of the polygon that is left.
+
+    The oracle has them by another integral (`reference.fuzzy`).
+    """
+    a, b, c, d = corners
+    left, right = a + height * (b - a), d - height * (d - c)
+    area = height * (d - a + right - left) / 2
+    moment = height * (d * d + d * right + right * right - a * a - a * left - left * left) / 6
+    return area, moment
+
+
+def midpoints(ends: Ends, points: int) -> Array:
+    """Return the middles of so many equal pieces, shape (points,)."""
+    low, high = ends
+    return low + (np.arange(points) + 0.5) * ((high - low) / points)
 
 
 def centre_of(corners: Corners) -> float:

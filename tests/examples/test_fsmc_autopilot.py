@@ -9,7 +9,18 @@ import numpy as np
 import pytest
 from plantc.codegen.layout import flatten
 from plantc.examples import fsmc_autopilot
-from plantc.examples.fsmc_autopilot import CHANNELS, LAWS, SURFACES, Flight, autopilot, control_law, fly, seen_by
+from plantc.examples.fsmc_autopilot import (
+    CHANNELS,
+    LAWS,
+    SLOPE,
+    SURFACES,
+    Flight,
+    autopilot,
+    control_law,
+    fly,
+    laws,
+    seen_by,
+)
 from plantc.examples.fsmc_quadrotor import COMMANDS, STATES
 from plantc.reference import fsmc
 from plantc.reference.fsmc import SET_A, Controller, Scenario, disturbances, simulate
@@ -154,6 +165,19 @@ def test_the_error_of_yaw_is_wrapped(precision):
         _, out = call(law("FSMC", precision), X, THERE)
         assert out["attitude.u4"][0] == pytest.approx(Controller()(X, THERE)[3], rel=1e-4)
         assert abs(out["attitude.surface_yaw"][0]) <= 3 * math.pi + 1e-4
+
+
+def test_the_attitude_law_wraps_it_also_without_the_allocation_before_it():
+    """The allocation gives the wanted yaw in the nearest turn; the law does not rely on it."""
+    view = NativeView(laws("FSMC")["attitude"], "double")
+    wanted = {"reference_yaw": 3.0}
+    answers = []
+    for yaw in (-3.0, -3.0 + 2 * math.pi, -3.0 + 20 * math.pi):
+        inputs = {item.name: 0.0 for item in view.block.entries["step"].inputs} | wanted | {"yaw": yaw}
+        answers.append(view.call("step", view.init(), view.inputs("step", inputs), view.params()).outputs)
+    for found in answers:
+        assert float(found["surface_yaw"]) == pytest.approx(SLOPE["yaw"] * (2 * math.pi - 6.0))
+        assert float(found["u4"]) == pytest.approx(float(answers[0]["u4"]))
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)
