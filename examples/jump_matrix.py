@@ -172,7 +172,9 @@ Cell = tuple[int, int, float, int]
 
 def compared_cells() -> tuple[list[Cell], list[Cell], list[Cell]]:
     """Return the cells of Tables 1 to 4 where the online gain is printed with less error, with more, and where one is lost."""
-    less, more, lost = [], [], []
+    less: list[Cell] = []
+    more: list[Cell] = []
+    lost: list[Cell] = []
     for online, jacobian in ((1, 2), (3, 4)):
         for row, column, value in TABLES[online].cells():
             other = TABLES[jacobian].rows[row][column]
