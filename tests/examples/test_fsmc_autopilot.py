@@ -415,10 +415,12 @@ def test_the_variants_of_section_11_7():
     other = fly(Flight(which="B", d=d, v=v))
     assert np.all(other.tracking(5, 10)[[6, 8, 10]] < (0.012, 0.013, 0.0155))
     np.testing.assert_allclose(other.chattering(5, 10), (16.1, 12.1, 12.2, 0.58), rtol=0.15)
-    long_d, long_v = disturbances(20000, seed=6)
-    ramp = fly(Flight(steps=20000, ramp=True, d=long_d, v=long_v))
-    # the page says "about 0.0009", of one stream; thirty streams lie between 0.0007 and 0.0033, in the reference too
-    assert 0.0005 < ramp.tracking(10, 20)[10] < 0.004
+    streams = [disturbances(20000, seed=6 + k) for k in range(5)]
+    long_d, long_v = streams[0]
+    climb = np.array([fly(Flight(steps=20000, ramp=True, d=d, v=v)).tracking(10, 20)[[6, 8, 10]] for d, v in streams])
+    assert np.all(climb[:, :2] < (0.012, 0.013))
+    # z: section 11.7 says "about 0.0009", of one stream; thirty lie between 0.0008 and 0.0031, median 0.0018
+    assert np.all((climb[:, 2] > 0.0007) & (climb[:, 2] < 0.0033)) and 0.0012 < np.mean(climb[:, 2]) < 0.0024
     assert fly(Flight(steps=20000, ramp=True, d=disturbances(20000)[0])).tracking(10, 20)[10] < 0.0009
     far = tuple(4.0 if k == 6 else -4.0 if k == 8 else 0.0 for k in range(12))
     away = fly(Flight(steps=20000, X=far, estimate=far, d=long_d, v=long_v))
