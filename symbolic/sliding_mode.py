@@ -278,7 +278,7 @@ def sliding_mode(
         sigma: `sign()`, `boundary_layer(width)`, `tanh(width)` or `fuzzy(system, width)`.
     least : dict, optional
         Output -> number at which g is held, from below if it is positive, from above if it is negative, where g may vanish or
-        change its sign. Where it is held the status is CLAMPED, and g is the output `input_gain_<q>`.
+        change its sign; inside the range of g. Where it is held the status is CLAMPED, and g is the output `input_gain_<q>`.
     saturate : bool or dict
         True: each command is held within the range of its input (CLAMPED); a dict: input -> (low, high) that it is held within.
         Otherwise a call with a command outside its range is refused (OVERFLOW).
