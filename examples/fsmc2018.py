@@ -65,6 +65,8 @@ BANDS = {"x": 0.012, "y": 0.013, "z": 0.0155, "yaw": 0.002}
 """Largest tracking error, root mean square over `LATE`, that counts as the paper's "very acceptable" (m, rad): section 11.5."""
 SEEN = 0.0075
 """Largest error of an estimated velocity likewise, m/s or rad/s."""
+BY_ARGUMENT = "By argument, which no run here can change: "
+"""Of statements that what is printed, or what is built from it, decides alone."""
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -92,8 +94,10 @@ def _of_tracking(found: Found, runs: int, seed: int) -> list[Comparison]:
     velocity = [_velocity(item) for item in own]
     noise = np.diff(fsmc.disturbances(STEPS, seed=seed)[1][5000:], axis=0) / DT
     differentiated = float(np.sqrt(np.mean(noise**2)))
-    course = found[ramp(seed)]
-    climb = [course.tracking[10.0, 20.0][place(axis)] for axis in ("x", "y", "z")]
+    climb = {
+        axis: [float(found[ramp(seed + k)].tracking[10.0, 20.0][place(axis)]) for k in range(runs)]
+        for axis in ("x", "y", "z")
+    }
     return [
         compared(
             "Figs. 6, 7: positions are tracked under the disturbances, with \"very acceptable\" performance",
@@ -118,11 +122,13 @@ def _of_tracking(found: Found, runs: int, seed: int) -> list[Comparison]:
         ),
         compared(
             "Fig. 13: with z_d = 5 t the trajectory is tracked for 20 s",
-            "root mean square errors 10 to 20 s: " + ", ".join(f"{axis} {value:.2g} m" for axis, value in zip(
-                "xyz", climb, strict=True)),
-            bool(climb[0] < BANDS["x"] and climb[1] < BANDS["y"] and climb[2] < BANDS["z"]),
-            climb,
-            "Once the start is over z is tracked better than in the nominal case, whose window holds the end of the start.",
+            f"root mean square errors 10 to 20 s over {runs} streams: "
+            + "; ".join(f"{axis} {_span(values)} m" for axis, values in climb.items()),
+            all(np.mean(values) < BANDS[axis] for axis, values in climb.items()),
+            [item for values in climb.values() for item in values],
+            f"Of z the median stream has {np.median(climb['z']):.2g} m; one stream tells it to a factor "
+            f"{max(climb['z']) / min(climb['z']):.1f} only. Once the start is over z is tracked better than in the nominal "
+            f"case, whose window holds the end of the start.",
         ),
     ]  # fmt: skip
 
@@ -278,7 +284,7 @@ def _of_gains(found: Found, seed: int) -> list[Comparison]:
             f"beta = 1.5, eta = 0.1, tau = 10, g at its least: s s' / |s| = {off:.3g}; with (beta - 1) |tau| {repaired:.3g}",
             off <= -0.1 + 1e-9,
             [off, repaired],
-            "Slotine and Li have (beta - 1). For a g that is known, beta = 1, both are the same.",
+            f"{BY_ARGUMENT}Slotine and Li have (beta - 1). For a g that is known, beta = 1, both are the same.",
             otherwise="shown wrong",
         ),
         compared(
@@ -292,7 +298,8 @@ def _of_gains(found: Found, seed: int) -> list[Comparison]:
             f"k_hat is K |FLS(s / Phi)| to {fixed:.0e} in every step: a fixed function of s, and K is chosen by hand",
             fixed > 1e-9,
             [fixed],
-            "Nothing is learnt: it is a boundary layer of slope 0.8 in the middle and 1.2 beyond. The paper gives no K.",
+            f"{BY_ARGUMENT}nothing is learnt: it is a boundary layer of slope 0.8 in the middle and 1.2 beyond. The paper "
+            f"gives no K.",
             otherwise="shown wrong",
         ),
     ]
@@ -338,7 +345,7 @@ def _of_law(found: Found, seed: int) -> list[Comparison]:
             f"it is {model:.2g} (m/s^2, rad/s^2) at most over the nominal run",
             model < 0,
             [model],
-            "A bound on a magnitude is not negative.",
+            f"{BY_ARGUMENT}a bound on a magnitude is not negative.",
             otherwise="shown wrong",
         ),
     ]
@@ -507,7 +514,8 @@ def _of_model(found: Found, seed: int) -> list[Comparison]:
             "l = 25 cm, and the rotational drag for the translational)",
             agree["A"] == len(printed),
             [item for own in off.values() for item in own.values()],
-            f"The other vehicle gives a1 to a8 and b1 to b3 to {strict:.1%}; the printed a10 is a9 cut short (erratum 1).",
+            f"{BY_ARGUMENT}the other vehicle gives a1 to a8 and b1 to b3 to {strict:.1%}; the printed a10 is a9 cut short "
+            f"(erratum 1).",
             otherwise="shown wrong",
         ),
         compared(
@@ -523,7 +531,7 @@ def _of_model(found: Found, seed: int) -> list[Comparison]:
             f"its slope in x6 is off the printed entry F6,6 = 2 x6 a8 dt + 1 by up to {slope:.2g}",
             slope < 1e-9,
             [slope],
-            "(1), u4 and F6,6 have x6^2 (erratum 2).",
+            f"{BY_ARGUMENT}(1), u4 and F6,6 have x6^2 (erratum 2).",
             otherwise="shown wrong",
         ),
         compared(
@@ -531,7 +539,7 @@ def _of_model(found: Found, seed: int) -> list[Comparison]:
             f"rolling at -1 rad/s it speeds up: a2 rate^3 = {worst:+.3g} rad^2/s^3",
             worst <= 0,
             [worst],
-            "Friction is rate |rate|. Kept as printed; here it stays small (erratum 3).",
+            f"{BY_ARGUMENT}friction is rate |rate|. Kept as printed; here it stays small (erratum 3).",
             otherwise="shown wrong",
         ),
     ]
@@ -551,7 +559,8 @@ def _of_jacobian(found: Found, seed: int) -> list[Comparison]:
             f"of {len(entries)} printed entries {len(bad)} are not the derivative: {', '.join(bad)}",
             not bad,
             [item.difference for item in entries],
-            "Both evaluated at 50 points; the derived one is what is exported. Three more are lost in the text (erratum 9).",
+            f"{BY_ARGUMENT}both evaluated at 50 points; the derived one is what is exported. Three more are lost in the "
+            f"text (erratum 9).",
             otherwise="shown wrong",
         ),
         compared(
@@ -590,8 +599,15 @@ def _summary(found: Found, runs: int, seed: int, made: Sequence[Comparison]) -> 
     heavier_by = _tracked(found[heavy(1.05, "printed", "FSMC", seed)], "z")[0]
     robust = _tracked(found[heavy(1.05, "robust", "FSMC", seed)], "z")[0]
     wrongs = sum(item.verdict == "shown wrong" for item in made)
+    came = sum(item.verdict == "reproduces" for item in made)
+    (tracked,) = [item for item in made if item.published.startswith("Figs. 6, 7")]
+    flies = {
+        "reproduces": "The scheme tracks its references where the filter's model is exact.",
+        "does not reproduce": "The scheme does not track its references, even where the filter's model is exact.",
+    }.get(tracked.verdict, "Whether the scheme tracks its references cannot be said.")
     return (
-        f"The scheme flies. The fuzzy law chatters {_span(fuzzy / smc)} times as much as the conventional one, and "
+        f"{flies} {came} of {len(made)} statements come out. The fuzzy law chatters {_span(fuzzy / smc)} times as much as "
+        f"the conventional one, and "
         f"{_span(fuzzy / tanh)} times as much as a plain tanh. With 5 % more mass z is off by {heavier_by:.2g} m with the printed "
         f"filter, whose velocities are those of its model, and by {robust:.2g} m with one that is tuned. {wrongs} statements of "
         "the paper cannot be so, whoever computes them."

@@ -114,7 +114,7 @@ def laws(law: str, values: Mapping[str, float] = SET_A) -> dict[str, Block]:
         ),
         "position": sliding_mode(horizontal(values), {"x": "ux", "y": "uy"}, name="position", **numbers("x", "y")),
         "attitude": sliding_mode(
-            plant, {"roll": "u2", "pitch": "u3", "yaw": "u4"}, name="attitude", **numbers("roll", "pitch", "yaw")
+            plant, {"roll": "u2", "pitch": "u3", "yaw": "u4"}, wrapped=["yaw"], name="attitude", **numbers("roll", "pitch", "yaw")
         ),
     }  # fmt: skip
 

@@ -359,7 +359,7 @@ def cases(runs: int, seed: int) -> list[Case]:
     made += [wrong(tuning) for tuning in TUNINGS]
     made += [Case(seed=seed, which=which, believed=believed) for which, believed in BELIEFS]
     made += [Case(seed=seed, q_of=q_of) for q_of in READINGS]
-    made += [ramp(seed), Case(seed=seed, start="far", steps=2 * STEPS)]
+    made += [ramp(seed + k) for k in range(runs)] + [Case(seed=seed, start="far", steps=2 * STEPS)]
     made += streams("SMC", runs, seed, params=scaled(0.25))
     for law in ("SMC", "FSMC"):
         made += [Case(law, seed=seed, params=scaled(gain)) for gain in GAIN_SCALES]

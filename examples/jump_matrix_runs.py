@@ -421,9 +421,12 @@ def measures(case: Case, found: History, still: Array | None, run: int, seed: in
         In the relays ``kurtosis`` of the error, and ``kurtosis_added`` of the error to which normal random numbers of the same
         variance were added (Fig. 24); in the controlled systems ``roughness``, mean squared increment of xh1; ``gain``, mean of K1
         over the run (K1 = P11 / R after the reading); ``deviation``, mean square of x1 less the response without noise;
-        ``rise``, seconds until x1 is at nine tenths of where it settles without noise.
+        ``rise``, seconds until x1 is at nine tenths of where it settles without noise, infinite where it never is. Nothing
+        for a run that was refused before its end.
     """
     answer: dict[str, float] = {}
+    if found.refused or len(found.truth) < found.asked:
+        return answer
     error = errors(found)
     if error is not None and case.system in RELAYS and case.noise:
         added = np.std(error) * stream(seed, run, "figure 24").standard_normal(len(error))
@@ -436,7 +439,8 @@ def measures(case: Case, found: History, still: Array | None, run: int, seed: in
         answer["gain"] = float(np.mean(found.spread[:, 0]) / case.reading)
     answer["deviation"] = float(np.mean((x1 - still) ** 2))
     if "amplifier" in case.system:
-        answer["rise"] = T * (1 + int(np.argmax(x1 >= 0.9 * still[-1])))
+        there = np.flatnonzero(x1 >= 0.9 * still[-1])
+        answer["rise"] = T * (1 + int(there[0])) if len(there) else float("inf")
     return answer
 
 

@@ -23,6 +23,9 @@ from .errors import ModelError
 LEAST_DAMPING, MOST_DAMPING = 0.5, 2.0
 """Range of the parameter `damping`; wider where the default is outside."""
 
+SLOWEST = 0.1
+"""Least value of the parameter `frequency` over its default: at 0 a filter that moves would drift out of its range."""
+
 OVERSHOOT = 10.0
 """How much farther than the command what the filter stores may be from the centre of its range."""
 
@@ -46,7 +49,7 @@ def command_filter(
     Parameters
     ----------
     frequency : float
-        omega, in rad/s: a run-time parameter.
+        omega, in rad/s: a run-time parameter, from a tenth of this on.
     damping : float
         zeta: a run-time parameter. At 1 or more the filter does not overshoot (but for what Euler adds).
     dt : float
@@ -100,7 +103,9 @@ def command_filter(
     per, per_square = (f"{unit}/s", f"{unit}/s^2") if unit else ("", "")
     block = Block(name, doc=doc or "command filter: a command and its first two derivatives")
     raw = block.input("raw", unit=unit, range=ends, doc="command, which may jump")
-    omega = block.parameter("frequency", frequency, unit="rad/s", range=(0, highest), doc="natural frequency")
+    omega = block.parameter(
+        "frequency", frequency, unit="rad/s", range=(SLOWEST * frequency, highest), doc="natural frequency"
+    )
     zeta = block.parameter("damping", damping, range=dampings, doc="damping ratio")
     _, half = middle_of(ends)
     inner = spread_range(ends, OVERSHOOT)

@@ -331,8 +331,11 @@ class Derivation:
 
 
 def name_of(key: Symbol | str) -> str:
-    """Return the name of a symbol, or the name itself."""
-    return key if isinstance(key, str) else key.signal.name
+    """Return the name of a symbol, or the name itself; refuse anything else."""
+    found = key if isinstance(key, str) else getattr(getattr(key, "signal", None), "name", None)
+    if not isinstance(found, str):
+        raise ModelError(f"{key!r} stands where a symbol of the plant or its name is needed; give one")
+    return found
 
 
 def dynamics_equations(plant: Plant) -> list[str]:

@@ -22,8 +22,8 @@ def expect(value: Any, kind: type | tuple[type, ...], what: str, wanted: str) ->
     ----------
     value : object
         What was given.
-    kind : type or tuple of type
-        What it has to be.
+    kind : type or tuple of types
+        What it has to be, or one of them.
     what : str
         The call and the argument, as the user wrote it.
     wanted : str

@@ -10,14 +10,17 @@ from typing import Any, Literal
 
 import casadi as ca
 import numpy as np
+from numpy.typing import NDArray
 
-from ..reference.fuzzy import Corners, Fuzzy, area_and_moment, midpoints
+from ..reference.fuzzy import Corners, Fuzzy
 from .block import Block
 from .components import Ends, finish, is_number, wandering
-from .errors import ModelError, whole
+from .errors import ModelError, expect, whole
 from .names import check_name, check_unique
-from .piecewise import maximum, minimum, saturated
+from .piecewise import as_expression, maximum, minimum, saturated
 from .signals import WIDE, make_range
+
+Array = NDArray[Any]
 
 LEAST_STRENGTH = 1.0e-6
 """Sum of the rules' strengths below which a corner of the inputs counts as not covered: float divides by it."""
@@ -97,7 +100,10 @@ class FuzzySet:
         peaks : dict
             Label -> peak, rising.
         """
-        labels, at = list(peaks), [float(item) for item in peaks.values()]
+        expect(peaks, Mapping, "FuzzySet.partition: peaks", "a dictionary, label -> peak")
+        labels, at = list(peaks), list(peaks.values())
+        if not all(map(is_number, at)):
+            raise ModelError(f"the peaks of a partition are {at}; give finite numbers")
         if len(at) < 2 or not all(a < b for a, b in itertools.pairwise(at)):
             raise ModelError(f"the peaks of a partition are {at}; give two or more that rise")
         inner = [cls.triangle(labels[k], *at[k - 1 : k + 2]) for k in range(1, len(at) - 1)]
@@ -125,7 +131,7 @@ class FuzzyInput:
     def __post_init__(self) -> None:
         low, high = make_range(self.name, f"the fuzzy input {self.name!r}", self.range, (-WIDE, WIDE), 1)
         object.__setattr__(self, "range", (low[0], high[0]))
-        object.__setattr__(self, "sets", tuple(self.sets))
+        object.__setattr__(self, "sets", _as_sets(self.name, self.sets, "a list of FuzzySet"))
         _check_labels(self.name, self.sets)
         for item in self.sets:
             a, b, c, d = item.corners
@@ -161,7 +167,8 @@ class FuzzyOutput:
         given = self.sets
         if isinstance(given, Mapping):
             given = [FuzzySet(label, (value,) * 4) for label, value in given.items()]
-        object.__setattr__(self, "sets", tuple(given))
+        wanted = "a dictionary, label -> number, or a list of FuzzySet"
+        object.__setattr__(self, "sets", _as_sets(self.name, given, wanted))
         _check_labels(self.name, self.sets)
         for item in self.sets:
             if not all(math.isfinite(x) for x in item.corners):
@@ -225,9 +232,14 @@ class FuzzySystem:
     least_strength: float = field(init=False, repr=False, default=0.0)
 
     def __post_init__(self) -> None:
-        for what in ("inputs", "outputs"):
+        for what, kind in (("inputs", FuzzyInput), ("outputs", FuzzyOutput)):
             given = getattr(self, what)
-            object.__setattr__(self, what, (given,) if isinstance(given, (FuzzyInput, FuzzyOutput)) else tuple(given))
+            given = (given,) if isinstance(given, kind) else given
+            wanted = f"a {kind.__name__}, or a list of them"
+            expect(given, (list, tuple), f"FuzzySystem: {what}", wanted)
+            for item in given:
+                expect(item, kind, f"FuzzySystem: one of the {what}", wanted)
+            object.__setattr__(self, what, tuple(given))
         check_unique(
             [(item.name, f"the signal {item.name!r}") for item in (*self.inputs, *self.outputs)], "FuzzySystem"
         )
@@ -241,6 +253,7 @@ class FuzzySystem:
             if getattr(self, what) not in known:
                 raise ModelError(f"FuzzySystem: {what} is {getattr(self, what)!r}; give one of {', '.join(known)}")
         whole(self.points, "FuzzySystem: points", 3, 10_001)
+        expect(self.rules, (list, tuple), "FuzzySystem: rules", "a list of (labels in, labels out)")
         object.__setattr__(self, "rules", tuple(self._rule(item) for item in self.rules))
         self._check_rules()
         self._check_areas()
@@ -256,7 +269,7 @@ class FuzzySystem:
             )
         sides = []
         for what, side, signals in (("input", given[0], self.inputs), ("output", given[1], self.outputs)):
-            labels = (side,) if side is None or isinstance(side, str) else tuple(side)
+            labels = tuple(side) if isinstance(side, (list, tuple)) else (side,)
             if len(labels) != len(signals):
                 raise ModelError(
                     f"FuzzySystem: the rule {given!r} has {len(labels)} label(s) for {len(signals)} {what}(s); give one for each"
@@ -333,10 +346,13 @@ class FuzzySystem:
                 f"FuzzySystem: it is called with {len(expressions)} expression(s) and has {len(self.inputs)} input(s); give one "
                 "for each"
             )
-        given_numbers = all(ca.SX(item).is_constant() for item in expressions)
+        given = [
+            as_expression(f"FuzzySystem: the input {item.name!r}", x)
+            for x, item in zip(expressions, self.inputs, strict=True)
+        ]
+        given_numbers = all(x.is_constant() for x in given)
         degrees: list[dict[str, ca.SX]] = []
-        for given, item in zip(expressions, self.inputs, strict=True):
-            x = ca.SX(given)
+        for x, item in zip(given, self.inputs, strict=True):
             if x.numel() != 1:
                 raise ModelError(
                     f"FuzzySystem: the expression for {item.name!r} has {x.numel()} elements; give a scalar"
@@ -417,6 +433,7 @@ class FuzzySystem:
         doc : str
             Its meaning.
         """
+        expect(ranges or {}, Mapping, f"{name}: ranges", "a dictionary, input -> (low, high)")
         wide = dict(ranges or {})
         unknown = set(wide) - {item.name for item in self.inputs}
         if unknown:
@@ -444,6 +461,24 @@ class FuzzySystem:
         return finish(block, {"step": self.reference().step}, wandering(near))
 
 
+def area_and_moment(corners: Corners, height: Any) -> tuple[Any, Any]:
+    """Return the integrals of m(y) and y m(y) over a trapezoid cut off at a height, as that of the polygon that is left.
+
+    The oracle has them by another integral (`reference.fuzzy`).
+    """
+    a, b, c, d = corners
+    left, right = a + height * (b - a), d - height * (d - c)
+    area = height * (d - a + right - left) / 2
+    moment = height * (d * d + d * right + right * right - a * a - a * left - left * left) / 6
+    return area, moment
+
+
+def midpoints(ends: Ends, points: int) -> Array:
+    """Return the middles of so many equal pieces, shape (points,)."""
+    low, high = ends
+    return low + (np.arange(points) + 0.5) * ((high - low) / points)
+
+
 def centre_of(corners: Corners) -> float:
     """Return the centre of gravity of a set; of a singleton, where it is."""
     area, moment = area_and_moment(corners, 1.0)
@@ -458,6 +493,14 @@ def _shape(corners: Corners) -> str:
     rises = "" if math.isinf(a) else f"rises from {a:g} to {b:g}"
     falls = "" if math.isinf(d) else f"falls from {c:g} to {d:g}"
     return ", ".join(item for item in (rises, falls) if item) or "everywhere"
+
+
+def _as_sets(name: str, given: Any, wanted: str) -> tuple[FuzzySet, ...]:
+    """Return fuzzy sets, or say what is none."""
+    expect(given, (list, tuple), f"{name}: sets", wanted)
+    for item in given:
+        expect(item, FuzzySet, f"{name}: one of the sets", wanted)
+    return tuple(given)
 
 
 def _check_labels(name: str, sets: Sequence[FuzzySet]) -> None:

@@ -21,8 +21,9 @@ from ..reference.jump_matrix import SMALLEST_DIFFERENCE, Choice, ErrorStep, Jump
 from ..reference.model import CarriedModel
 from .affinity import kink_in
 from .block import Block
+from .components import matrix_of
 from .derivation import name_of
-from .errors import ModelError
+from .errors import ModelError, expect
 from .estimators import CovarianceStep, filter_of
 from .exponentials import held_exponential
 from .expressions import equation_text, numpy_callable
@@ -151,7 +152,7 @@ class JumpModel:
         gain : array (m, N)
             F.
         """
-        F = np.atleast_2d(np.asarray(gain, dtype=float))
+        F = matrix_of(self.plant.name, "the gain", gain)
         if F.shape != (self.B.shape[1], len(self.Phi)):
             raise ModelError(
                 f"{self.plant.name}: the gain has shape {F.shape}; give one row for each of the {self.B.shape[1]} inputs, and one "
@@ -184,7 +185,8 @@ def jump_model(
     nonlinearities : dict
         Name -> the memoryless subexpression of the dynamics that is held over the step, a scalar or a column vector. It may
         depend on states, inputs, parameters, noises, and on other nonlinearities that are part of it. An input or noise inside
-        it is taken at the end of the step.
+        it is taken at the end of the step, and moves the rest from the next step on: one step of dead time. For a controlled
+        loop take `JumpModel.one_step`, in which it acts at once.
     dt : float
         Seconds per step.
     order : sequence of str or Symbol, optional
@@ -202,6 +204,12 @@ def jump_model(
         If the plant is discrete or has an attitude; if a subexpression does not occur; if the rest is not affine in states, inputs
         and noises, or a coefficient of it depends on a parameter; if a noise stands inside a nonlinearity and outside of it.
     """
+    expect(plant, Plant, "jump_model: the plant", "a continuous Plant")
+    expect(
+        order if order is not None else (), (list, tuple), f"{plant.name}: order", "a list of states and nonlinearities"
+    )
+    for what, table in (("units", units), ("ranges", ranges)):
+        expect(table or {}, Mapping, f"{plant.name}: {what}", "a dictionary by the names of the nonlinearities")
     return _Construction(plant, nonlinearities, dt, order, units or {}, ranges or {}).build()
 
 
@@ -572,8 +580,8 @@ def _error_step(model: JumpModel, a: Choice, transition: Any) -> CovarianceStep:
     plant, n = model.plant, len(model.Phi)
     given = None
     if transition is not None:
-        given = np.array(transition, dtype=float)
-        if given.shape != (n, n) or not np.all(np.isfinite(given)):
+        given = matrix_of(plant.name, "covariance_transition", transition)
+        if given.shape != (n, n):
             raise ModelError(
                 f"{plant.name}: covariance_transition has shape {given.shape}; give finite numbers, {n} x {n}, in the order "
                 f"{', '.join(state.signal.name for state in plant.states)}"

@@ -164,7 +164,7 @@ def saturated(x: Any, low: Any, high: Any) -> ca.SX:
     >>> Function("both", [x], [y, jacobian(y, x)])(0.1)
     (DM(1), DM(5))
     """
-    ends = [_expression("saturated", item) for item in (low, high)]
+    ends = [as_expression("saturated", item) for item in (low, high)]
     if all(item.is_constant() for item in ends):
         pairs = zip(*np.broadcast_arrays(*[np.array(ca.DM(item)).ravel() for item in ends]), strict=True)
         for first, second in pairs:
@@ -190,7 +190,7 @@ def dead_zone(x: Any, low: Any, high: Any) -> ca.SX:
     ModelError
         As `saturated`.
     """
-    return _expression("dead_zone", x) - saturated(x, low, high)
+    return as_expression("dead_zone", x) - saturated(x, low, high)
 
 
 def relay(x: Any, amplitude: Any = 1.0, *, at_zero: Any = 0.0) -> ca.SX:
@@ -212,7 +212,7 @@ def relay(x: Any, amplitude: Any = 1.0, *, at_zero: Any = 0.0) -> ca.SX:
     ModelError
         If an argument is no expression.
     """
-    signal, size, middle = (_expression("relay", item) for item in (x, amplitude, at_zero))
+    signal, size, middle = (as_expression("relay", item) for item in (x, amplitude, at_zero))
     answer = size * ca.sign(signal)
     if middle.is_constant() and not np.any(np.array(ca.DM(middle))):
         return answer
@@ -301,7 +301,7 @@ def look_up(x: Any, breakpoints: Any, values: Any) -> ca.SX:
                 f"look_up: the slope between the breakpoints {at[k]:g} and {at[k + 1]:g} is not finite; move them apart"
             )
     node = _look_up_node(len(at))
-    return _mapped(lambda item: ca.SX(node(item, ca.SX(ca.DM(at)), ca.SX(ca.DM(of)))), _expression("look_up", x))
+    return _mapped(lambda item: ca.SX(node(item, ca.SX(ca.DM(at)), ca.SX(ca.DM(of)))), as_expression("look_up", x))
 
 
 def _numbers(what: str, given: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
@@ -315,8 +315,14 @@ def _numbers(what: str, given: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
     return numbers
 
 
-def _expression(owner: str, item: Any) -> ca.SX:
-    """Return an argument as a dense SX expression."""
+def as_expression(owner: str, item: Any) -> ca.SX:
+    """Return an argument as a dense SX expression.
+
+    Raises
+    ------
+    ModelError
+        If it is none.
+    """
     try:
         return ca.densify(ca.SX(item))
     except (NotImplementedError, TypeError, RuntimeError):
@@ -332,7 +338,7 @@ def _mapped(function: Callable[..., ca.SX], *arguments: ca.SX) -> ca.SX:
 
 
 def _elementwise(owner: str, node: Callable[..., ca.SX], *given: Any) -> ca.SX:
-    arguments = [_expression(owner, item) for item in given]
+    arguments = [as_expression(owner, item) for item in given]
     shapes = {item.shape for item in arguments if not item.is_scalar()}
     if len(shapes) > 1:
         raise ModelError(f"{owner}: the arguments have the shapes {sorted(shapes)}; give scalars, or one shape")

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from ..reference.rotors import Mixer
 from .block import Block
-from .components import finish, matrix_of, rounded_up
-from .errors import ModelError
+from .components import finish, is_number, matrix_of, rounded_up, vector_of
+from .errors import ModelError, expect
 
 Array = NDArray[Any]
 
@@ -74,14 +74,16 @@ def rotor_mixer(
     -----
     The rotors follow at once: their own dynamics are no part of it.
     """
+    expect(commands, Mapping, f"{name}: commands", "a dictionary, name -> unit")
+    expect(ranges or {}, Mapping, f"{name}: ranges", "a dictionary, command -> (low, high)")
     E = _checked_effect(name, effect, commands)
     rotors = E.shape[1]
-    if not 0 <= slowest < fastest < 1e9:
+    if not (is_number(slowest) and is_number(fastest) and 0 <= slowest < fastest < 1e9):
         raise ModelError(
-            f"{name}: the speeds are {slowest:g} to {fastest:g}; give them in rad/s, zero or more, the slowest first"
+            f"{name}: the speeds are {slowest!r} to {fastest!r}; give them in rad/s, zero or more, the slowest first"
         )
-    signs = np.array(spins if spins is not None else (-1.0) ** np.arange(rotors), dtype=float)
-    if signs.shape != (rotors,) or not np.all(np.abs(signs) == 1):
+    signs = vector_of(name, "spins", spins if spins is not None else (-1.0) ** np.arange(rotors), rotors)
+    if not np.all(np.abs(signs) == 1):
         raise ModelError(f"{name}: spins is {spins!r}; give 1 or -1 for each of the {rotors} rotors")
     unknown = sorted(set(ranges or {}) - set(commands))
     if unknown:

@@ -14,7 +14,7 @@ from ..reference import sliding_mode as reference
 from .affinity import kink_in
 from .block import Block
 from .components import Calls, Ends, finish, is_number, middle_of, rounded_up
-from .errors import ModelError
+from .errors import ModelError, expect
 from .expressions import equation_text, numpy_callable
 from .fuzzy import FuzzySystem
 from .intervals import Interval, bounds
@@ -39,13 +39,16 @@ SAMPLES = 2001
 # -- switching terms --------------------------------------------------------------------------------------------------
 
 
+_KINDS = ("sign", "boundary_layer", "tanh", "fuzzy")
+
+
 @dataclass(frozen=True)
 class Switching:
     """What takes the place of sgn(s) in a sliding mode law: made by `sign`, `boundary_layer`, `tanh` and `fuzzy`.
 
     Attributes
     ----------
-    kind : str
+    kind : {"sign", "boundary_layer", "tanh", "fuzzy"}
     width : float
         Of the surface, in its unit; a run-time parameter of the law. 0 for the sign, which has none.
     system : FuzzySystem, optional
@@ -57,6 +60,13 @@ class Switching:
     system: FuzzySystem | None = None
 
     def __post_init__(self) -> None:
+        if self.kind not in _KINDS:
+            raise ModelError(f"the switching term is of the kind {self.kind!r}; give one of {', '.join(_KINDS)}")
+        if (self.kind == "fuzzy") != isinstance(self.system, FuzzySystem):
+            raise ModelError(
+                f"{self.kind}: the fuzzy system of the switching term is {self.system!r}; take fuzzy(system, width) for one with "
+                "a system, and sign(), boundary_layer(width) or tanh(width) for one without"
+            )
         if self.kind != "sign" and not (is_number(self.width) and self.width > 0):
             raise ModelError(
                 f"{self.kind}: the width is {self.width!r}; give a positive number, in the unit of the surface"
@@ -268,7 +278,7 @@ def sliding_mode(
         sigma: `sign()`, `boundary_layer(width)`, `tanh(width)` or `fuzzy(system, width)`.
     least : dict, optional
         Output -> number at which g is held, from below if it is positive, from above if it is negative, where g may vanish or
-        change its sign. Where it is held the status is CLAMPED, and g is the output `input_gain_<q>`.
+        change its sign; inside the range of g. Where it is held the status is CLAMPED, and g is the output `input_gain_<q>`.
     saturate : bool or dict
         True: each command is held within the range of its input (CLAMPED); a dict: input -> (low, high) that it is held within.
         Otherwise a call with a command outside its range is refused (OVERFLOW).
@@ -309,7 +319,11 @@ def sliding_mode(
     >>> [item.name for item in law.entries["step"].outputs]
     ['force', 'surface_position', 'switching_gain_position']
     """
+    expect(plant, Plant, "sliding_mode: the plant", "the Plant that the law is of")
     name = name or f"{plant.name}_sliding_mode"
+    if least is not None:
+        expect(least, Mapping, f"{name}: least", "a dictionary, output -> number at which its input gain is held")
+    expect(wrapped, (list, tuple, set, frozenset), f"{name}: wrapped", "a list of outputs, also where it is one")
     source = _continuous(name, plant)
     channels = _channels(name, source, commands, (surface, mu, gain, switching), least or {}, saturate, wrapped)
     block = Block(

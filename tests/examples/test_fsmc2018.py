@@ -204,7 +204,7 @@ FALSIFIED = [
     ("Figs. 6, 7", FSMC, times(10, "tracking"), NOT),
     ("Figs. 8, 9", FSMC, times(2, "estimation"), NOT),
     ("Section 5: the noise of a reading", FSMC, times(100, "estimation"), NOT),
-    ("Fig. 13", [ramp(SEED)], times(4, "tracking"), NOT),
+    ("Fig. 13", [ramp(SEED + k) for k in range(RUNS)], times(15, "tracking"), NOT),
     ("Fig. 11", FSMC, times(5, "chattering"), NOT),
     ("Abstract: the fuzzy system is what", FSMC, times(0.4, "chattering"), SO),
     ("Section 5.1: a decrease", LOW, times(10, "chattering"), NOT),
@@ -255,6 +255,29 @@ def test_so_does_what_rests_on_no_run(found, monkeypatch):
 
 
 @pytest.mark.slow
+def test_what_is_marked_as_by_argument_is_what_no_run_changes(found):
+    """With every number of every run a hundred times as large: the verdicts that turn are not by argument."""
+    by_argument = {item.published for item in study.comparisons(found, RUNS, SEED) if study.BY_ARGUMENT in item.why}
+    assert {key for key in VERDICTS if any(item.startswith(key) for item in by_argument)} == {
+        "(22): K >=", "Abstract: the fuzzy system adapts", "Assumption 2", "Table 2: the values", "Section 3", "(1): -K_fa",
+        "Section 6: the Jacobian",
+    }  # fmt: skip
+    larger = {case: times(100, "tracking", "estimation", "chattering")(item) for case, item in found.items()}
+    turned = {key for key, verdict in verdicts(larger).items() if verdict != VERDICTS[key]}
+    assert turned and not any(item.startswith(key) for item in by_argument for key in turned)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("factor", "says"), [(1, "The scheme tracks its references"), (10, "The scheme does not track its references"),
+                         (np.nan, "Whether the scheme tracks its references cannot be said")],
+)  # fmt: skip
+def test_the_summary_follows_the_verdicts(found, factor, says):
+    changed = {**found, **{case: times(factor, "tracking")(found[case]) for case in FSMC}}
+    assert study._summary(changed, RUNS, SEED, study.comparisons(changed, RUNS, SEED)).startswith(says)
+
+
+@pytest.mark.slow
 def test_a_table_that_is_of_its_vehicle_is_seen(found, monkeypatch):
     own = {key: value for key, value in runs.coefficients_of(SET_A).items() if value}
     monkeypatch.setattr(study, "PRINTED", own)
@@ -302,7 +325,11 @@ def test_the_numbers_of_sections_11_6_to_11_8(found):
     np.testing.assert_allclose(matched.chattering[LATE], (0.32, 0.59, 0.60, 0.0115), rtol=0.15)
     other = found[Case(seed=SEED, which="B")]
     np.testing.assert_allclose(other.chattering[LATE], (16.1, 12.1, 12.2, 0.58), rtol=0.15)
-    assert found[ramp(SEED)].tracking[10.0, 20.0][10] == pytest.approx(0.0009, rel=0.15)
+    climb = [found[ramp(SEED + k)].tracking[10.0, 20.0][10] for k in range(RUNS)]
+    assert climb[0] == pytest.approx(0.0009, rel=0.15)  # what the specification has is of one stream, as here:
+    assert (
+        0.0015 < np.median(climb) < 0.0022 and min(climb) > 0.0007 and max(climb) < 0.0033
+    )  # the median is twice that
     far = found[Case(seed=SEED, start="far", steps=20000)]
     assert far.clipped == pytest.approx(0.05, abs=0.02) and far.tracking[15.0, 20.0][6] < 0.012
     literal = found[Case(seed=SEED, variant="literal")].tracking[LATE]

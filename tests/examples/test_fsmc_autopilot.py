@@ -9,7 +9,18 @@ import numpy as np
 import pytest
 from plantc.codegen.layout import flatten
 from plantc.examples import fsmc_autopilot
-from plantc.examples.fsmc_autopilot import CHANNELS, LAWS, SURFACES, Flight, autopilot, control_law, fly, seen_by
+from plantc.examples.fsmc_autopilot import (
+    CHANNELS,
+    LAWS,
+    SLOPE,
+    SURFACES,
+    Flight,
+    autopilot,
+    control_law,
+    fly,
+    laws,
+    seen_by,
+)
 from plantc.examples.fsmc_quadrotor import COMMANDS, STATES
 from plantc.reference import fsmc
 from plantc.reference.fsmc import SET_A, Controller, Scenario, disturbances, simulate
@@ -154,6 +165,19 @@ def test_the_error_of_yaw_is_wrapped(precision):
         _, out = call(law("FSMC", precision), X, THERE)
         assert out["attitude.u4"][0] == pytest.approx(Controller()(X, THERE)[3], rel=1e-4)
         assert abs(out["attitude.surface_yaw"][0]) <= 3 * math.pi + 1e-4
+
+
+def test_the_attitude_law_wraps_it_also_without_the_allocation_before_it():
+    """The allocation gives the wanted yaw in the nearest turn; the law does not rely on it."""
+    view = NativeView(laws("FSMC")["attitude"], "double")
+    wanted = {"reference_yaw": 3.0}
+    answers = []
+    for yaw in (-3.0, -3.0 + 2 * math.pi, -3.0 + 20 * math.pi):
+        inputs = {item.name: 0.0 for item in view.block.entries["step"].inputs} | wanted | {"yaw": yaw}
+        answers.append(view.call("step", view.init(), view.inputs("step", inputs), view.params()).outputs)
+    for found in answers:
+        assert float(found["surface_yaw"]) == pytest.approx(SLOPE["yaw"] * (2 * math.pi - 6.0))
+        assert float(found["u4"]) == pytest.approx(float(answers[0]["u4"]))
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)
@@ -391,10 +415,12 @@ def test_the_variants_of_section_11_7():
     other = fly(Flight(which="B", d=d, v=v))
     assert np.all(other.tracking(5, 10)[[6, 8, 10]] < (0.012, 0.013, 0.0155))
     np.testing.assert_allclose(other.chattering(5, 10), (16.1, 12.1, 12.2, 0.58), rtol=0.15)
-    long_d, long_v = disturbances(20000, seed=6)
-    ramp = fly(Flight(steps=20000, ramp=True, d=long_d, v=long_v))
-    # the page says "about 0.0009", of one stream; thirty streams lie between 0.0007 and 0.0033, in the reference too
-    assert 0.0005 < ramp.tracking(10, 20)[10] < 0.004
+    streams = [disturbances(20000, seed=6 + k) for k in range(5)]
+    long_d, long_v = streams[0]
+    climb = np.array([fly(Flight(steps=20000, ramp=True, d=d, v=v)).tracking(10, 20)[[6, 8, 10]] for d, v in streams])
+    assert np.all(climb[:, :2] < (0.012, 0.013))
+    # z: section 11.7 says "about 0.0009", of one stream; thirty lie between 0.0008 and 0.0031, median 0.0018
+    assert np.all((climb[:, 2] > 0.0007) & (climb[:, 2] < 0.0033)) and 0.0012 < np.mean(climb[:, 2]) < 0.0024
     assert fly(Flight(steps=20000, ramp=True, d=disturbances(20000)[0])).tracking(10, 20)[10] < 0.0009
     far = tuple(4.0 if k == 6 else -4.0 if k == 8 else 0.0 for k in range(12))
     away = fly(Flight(steps=20000, X=far, estimate=far, d=long_d, v=long_v))

@@ -304,6 +304,20 @@ def test_kurtosis_and_the_truth_of_another_integrator():
     assert abs((at @ np.array([5.0, 0.0, 0.0]))[0] - 5.0) > 1e-4  # what the linear part alone does in a step
 
 
+def test_only_a_whole_run_is_measured_and_what_never_rises_has_no_rise():
+    case = study.control_case("linear_amplifier", BY_OPEN)
+    own = history(case, 0, SEED)
+    still = history(case, 0, SEED, noise=False).truth[:, 0]
+    answer = loops.measures(case, own, still, 0, SEED)
+    assert answer.keys() == {"roughness", "gain", "deviation", "rise"} and np.all(np.isfinite([*answer.values()]))
+    assert loops.measures(case, replace(own, truth=0 * own.truth), still, 0, SEED)["rise"] == np.inf
+    cut = replace(own, truth=own.truth[:400], estimate=own.estimate[:400], spread=own.spread[:400])
+    assert loops.measures(case, cut, still, 0, SEED) == {}
+    assert loops.measures(case, replace(own, refused="OVERFLOW"), still, 0, SEED) == {}
+    relay = Case("relay", 10.0, *loops.FIGURE_NOISES)
+    assert loops.measures(relay, replace(history(relay, 0, SEED), refused="OVERFLOW"), None, 0, SEED) == {}
+
+
 # -- the whole study: one run -----------------------------------------------------------------------------------------
 
 
@@ -395,21 +409,34 @@ def test_the_extended_kalman_filter_and_equal_starts(whole):
 
 @pytest.mark.slow
 def test_relays_and_normality(whole):
-    """N4 to N6."""
+    """N5, and what of N4 and N6 needs no more runs."""
     found, _ = whole
-    nine = TABLES[9]
-    assert all(7e-4 <= found[nine.case(row, 1)].median <= 1.4e-3 for row in nine.rows)
-    assert all(3e-5 <= found[nine.case(row, 1, JACOBIAN, True)].median <= 3e-4 for row in nine.rows)
     expected = {("relay", ONLINE, True): 0.045, ("relay", JACOBIAN, True): 0.0060, ("relay", JACOBIAN, False): 0.0106,
                 ("modified_relay", ONLINE, True): 5.0e-4, ("modified_relay", ONLINE, False): 6.2e-3,
                 ("modified_relay", JACOBIAN, True): 4.8e-4, ("modified_relay", JACOBIAN, False): 5.1e-3}  # fmt: skip
     for (system, approach, known), value in expected.items():
         assert value / 1.6 <= found[Case(system, 10.0, 0.1, 1.0, approach, known)].median <= value * 1.6
-    for known, value in ((True, 2.7), (False, 14)):
-        more = found[Case("modified_relay", 10.0, 0.1, 1.0, JACOBIAN, known)].more["kurtosis"]
-        assert np.median(more) == pytest.approx(value, rel=0.2)
     first, second = (found[Case(system, 10.0, 0.0, 0.0)].first[1] for system in RELAYS)
     np.testing.assert_allclose(first, second, rtol=0, atol=1e-12)
+
+
+@pytest.mark.slow
+def test_the_bands_of_the_modified_relay():
+    """N4 and N6 are of many runs: batches of 40 give a kurtosis of 12 to 17 with P_0 = I, so six of them are pooled."""
+
+    def pooled(case, of):
+        return float(np.median(np.concatenate([of(runs_of(case, RUNS, SEED + k)) for k in range(6)])))
+
+    for row in TABLES[9].rows:
+        started, known = (pooled(TABLES[9].case(row, 1, JACOBIAN, k), lambda own: own.mse) for k in (False, True))
+        assert 7e-4 <= started <= 1.3e-3, row
+        assert 4e-5 <= float(f"{known:.0e}") <= 3e-4, row  # in the digits that the specification has
+    started, known = (
+        pooled(Case("modified_relay", *(10.0, 0.1, 1.0), JACOBIAN, k), lambda own: own.more["kurtosis"])
+        for k in (False, True)
+    )
+    assert 13 <= started <= 15
+    assert round(known, 1) == 2.7
 
 
 EXPECTED = {
@@ -460,7 +487,39 @@ def as_printed(found):
         for row, column, value in table.cells():
             if value is not None:
                 answer[table.case(row, column)] = Runs(np.full(RUNS, value))
+                if table.number in (1, 3):  # erratum E1: what is printed there is the open loop
+                    answer[open_loop(table.case(row, column))] = Runs(np.full(RUNS, value))
     return answer
+
+
+OF_TABLES = (
+    "Table 3, linear", "Tables 2 and 6", "Table 4, linear", "Table 8, eps", "Tables 5 and 7", "Tables 1 to 4",
+    "Table 9, original", "Table 1, linear", "Tables 2, 4, 6, 8", "Tables 5 to 8", "Table 9, modified", "Section 3.4: the modified",
+)  # fmt: skip
+"""Every statement that is of printed numbers: it is the thesis' only if the printed numbers bear it out."""
+
+
+@pytest.mark.slow
+def test_the_printed_numbers_bear_out_what_is_said_to_be_printed(whole):
+    found, other = whole
+    told = verdicts(as_printed(found), other)
+    assert {beginning: of(told, beginning) for beginning in OF_TABLES} == dict.fromkeys(OF_TABLES, "reproduces")
+
+
+def test_the_cells_in_which_the_online_gain_is_printed_as_the_better_one():
+    less, more, lost = study.compared_cells()
+    assert len(less) == 18 and {(a, row, c) for a, _, row, c in lost} == {(3, row, 2) for row in TABLES[3].rows}
+    assert {(a, row, TABLES[a].values[c]) for a, _, row, c in more} == {(1, 0.1, -0.5), (1, 0.1, 0.0), (3, 10.0, -0.5)}
+
+
+@pytest.mark.slow
+def test_the_summary_follows_the_verdicts(whole):
+    found, other = whole
+    said = study._summary(found, study.comparisons(found, other))
+    turned = PLANTED["Conclusion"](found)
+    assert "does not come out with equal starts" in said
+    assert "comes out with equal starts too" in study._summary(turned, study.comparisons(turned, other))
+    assert said.startswith("13 of 25 statements come out, and 4 cannot be so.")
 
 
 PLANTED = {
@@ -469,7 +528,7 @@ PLANTED = {
     "Table 4, linear": lambda f: scaled(f, lambda c: c == TABLES[4].case(10.0, 1), 1.5),
     "Table 8, eps": lambda f: scaled(f, lambda c: c == TABLES[8].case(25.0, 2), 1.5),
     "Tables 5 and 7": lambda f: scaled(f, lambda c: c == TABLES[5].case(1.0, 2), 2),
-    "Tables 1 to 4": lambda f: scaled(f, lambda c: c == TABLES[1].case(0.1, 2), 10),
+    "Tables 1 to 4": lambda f: scaled(f, lambda c: c == TABLES[3].case(0.1, 0), 100),
     "Table 9, original": lambda f: scaled(f, lambda c: c == TABLES[9].case(200.0, 0), 3),
     "Chapter IV": lambda f: scaled(f, lambda c: c == study.control_case("saturated_spring", BY_CLOSED), 2, "roughness"),
     "Section 4.2: with the saturating": lambda f: scaled(f, lambda c: c.system == "saturating_amplifier", 9, "deviation"),

@@ -73,6 +73,20 @@ def test_no_combination_of_its_parameters_diverges():
         assert frequency <= highest < min(highest_frequency(H, zeta) for zeta in np.linspace(low, high, 50))
 
 
+def test_retuned_to_its_slowest_while_it_moves_it_stays_in_range():
+    """Where it is fastest in a swing over the whole range, with the least damping; at 0 it would drift, and `init` refuses it."""
+    block = command_filter(20.0, dt=H, **RADIANS)
+    view = NativeView(block)
+    slowest = view.params(**{s.name: s.low[0] for s in block.param_signals if s.name in ("frequency", "damping")})
+    memory, _ = run(view, 1000 * [-0.5])
+    memory, _ = run(view, 50 * [0.5], memory)
+    _, found = run(view, 8000 * [0.5], memory, slowest)
+    assert np.max(found[:, 0]) > 1.0  # beyond the range of the command by far
+    assert found[-1, 0] == pytest.approx(0.5, abs=0.02)
+    stopped = view.params(frequency=0.0)
+    assert view.call("init", view.memory(), view.inputs("init", {}), stopped).status == Status.BAD_PARAM
+
+
 @pytest.mark.parametrize(
     ("make", "says"),
     [

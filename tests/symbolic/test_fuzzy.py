@@ -7,7 +7,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from plantc.reference import fuzzy as reference
 from plantc.reference.fuzzy import membership
+from plantc.symbolic import fuzzy as symbolic
+from plantc.symbolic.fuzzy import area_and_moment as ours
+from plantc.symbolic.fuzzy import midpoints
 
 from plantc import (
     Block,
@@ -155,6 +159,33 @@ def test_centroids_are_those_of_integrals(kind):
         assert evaluated(system)(*point) == pytest.approx(exact, abs=1e-8 if system.aggregation == "sum" else 5e-3)
 
 
+@given(
+    corners=st.lists(st.floats(-5, 5).map(lambda x: round(x, 3)), min_size=4, max_size=4).map(sorted),
+    height=st.floats(0.01, 1),
+)
+def test_model_and_oracle_have_areas_of_their_own_and_both_are_integrals(corners, height):
+    """Two derivations: a slip in one is seen by the cross-check. Both against a sum over levels, exact for these degrees."""
+    assert ours is not reference.area_and_moment
+    assert midpoints is not reference.midpoints
+    a, b, c, d = corners
+    nodes, weights = np.polynomial.legendre.leggauss(3)
+    t, w = height * (nodes + 1) / 2, height * weights / 2
+    left, right = a + t * (b - a), d - t * (d - c)
+    exact = [np.sum(w * (right - left)), np.sum(w * (right**2 - left**2) / 2)]
+    for found in (ours(tuple(corners), height), reference.area_and_moment(tuple(corners), height)):
+        np.testing.assert_allclose(found, exact, rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(midpoints((a, d + 1), 41), reference.midpoints((a, d + 1), 41), rtol=1e-13, atol=1e-13)
+
+
+@pytest.mark.parametrize("kind", ["sum", "union"])
+def test_the_check_sees_a_slip_in_an_integral(kind, monkeypatch):
+    """Planted in the model's own helpers, which the oracle does not share."""
+    area, middles = ours, midpoints
+    monkeypatch.setattr(symbolic, "area_and_moment", lambda *own: (area(*own)[0], 1.01 * area(*own)[1]))
+    monkeypatch.setattr(symbolic, "midpoints", lambda *own: middles(*own) + 0.05)
+    assert not cross_check(two_inputs(**KINDS[kind]).block("pusher"), steps=40).passed
+
+
 def test_more_points_bring_a_union_nearer():
     few, many, exact = (
         float(two_inputs(defuzzify="centroid", points=n).reference()(0.6, 6.5)[0]) for n in (11, 501, 10_001)
@@ -244,6 +275,18 @@ SAME = ("N",)
         (lambda: FuzzySystem(IN, OUT, [("N", "N", 0.0), ("P", "P")]), "give more than 0 and at most 1"),
         (lambda: FuzzySystem(IN, OUT, ["N"]), "is no \\(labels in, labels out\\)"),
         (lambda: FuzzySystem(IN, OUT, [*BOTH, ("N", "P")]), r"two rules are about \('N',\)"),
+        (lambda: FuzzySet.partition([-1, 0, 1]), r"peaks is \[-1, 0, 1\], of type list; give a dictionary"),
+        (lambda: FuzzySet.partition({"N": "a", "P": 0}), r"the peaks of a partition are \['a', 0\]; give finite numbers"),
+        (lambda: FuzzyInput("x", (-1, 1), None), "x: sets is None, of type NoneType; give a list of FuzzySet"),
+        (lambda: FuzzyInput("x", (-1, 1), ["N"]), "x: one of the sets is 'N', of type str; give a list of FuzzySet"),
+        (lambda: FuzzyOutput("y", 5), "y: sets is 5, of type int; give a dictionary, label -> number"),
+        (lambda: FuzzySystem(5, OUT, BOTH), "inputs is 5, of type int; give a FuzzyInput, or a list of them"),
+        (lambda: FuzzySystem(OUT, OUT, BOTH), "inputs is the FuzzyOutput 'y'; give a FuzzyInput, or a list of them"),
+        (lambda: FuzzySystem(IN, ["y"], BOTH), "one of the outputs is 'y', of type str; give a FuzzyOutput"),
+        (lambda: FuzzySystem(IN, OUT, None), r"rules is None, of type NoneType; give a list of \(labels in, labels out\)"),
+        (lambda: FuzzySystem(IN, OUT, [(1, "N")]), "says 1 of 'x', whose labels are N, P"),
+        (lambda: FuzzySystem(IN, OUT, BOTH)("a"), "the input 'x': 'a' is no SX expression and no number"),
+        (lambda: FuzzySystem(IN, OUT, BOTH).block("b", ranges=[1]), r"b: ranges is \[1\], of type list; give a dictionary"),
         (lambda: FuzzySystem(IN, OUT, [*BOTH, BOTH[1]]), r"two rules are about \('P',\)"),
         (lambda: FuzzySystem(IN, OUT, [("N", SAME), ("N", SAME), ("P", "P")]), r"two rules are about \('N',\)"),
         (lambda: FuzzySystem(IN, OUT, []), "no input, no output or no rule"),

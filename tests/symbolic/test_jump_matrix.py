@@ -68,6 +68,19 @@ def made(**options):
     return jump_model(plant, {"gravity": sin(angle)}, 0.01, **options)
 
 
+def test_an_input_inside_a_nonlinearity_has_one_step_of_dead_time_and_in_the_one_step_map_none():
+    plant, _, _ = pendulum(rate=lambda angle, rate, torque, w: -0.2 * rate + sin(torque) + w)
+    model = jump_model(plant, {"push": sin(plant.inputs[0])}, 0.01)
+    moved = [0.0, 0.0, 0.0]
+    moved = evaluated(model, model.plant.dynamics_expression(), moved, [1.0], [0.0]).ravel()
+    assert moved.tolist() == [0, 0, np.sin(1.0)]
+    moved = evaluated(model, model.plant.dynamics_expression(), moved, [1.0], [0.0]).ravel()
+    one = model.one_step
+    at_once = ca.Function("one", [one.x, one.u], [one.without_noise(one.dynamics_expression())])([0, 0], [1])
+    assert moved[:2] == pytest.approx(np.array(at_once).ravel(), rel=1e-12)
+    assert moved[1] == pytest.approx(0.01 * np.sin(1.0), rel=0.01)
+
+
 def test_the_step_is_the_projection_and_the_jump():
     model = made()
     plant = model.plant
@@ -174,6 +187,9 @@ def test_refusals():
     says("two nonlinearities are the same", named=lambda a, r: {"one": sin(a), "other": sin(a)})
     says("seconds per step", dt=-1.0)
     says("give each state and nonlinearity once", order=["angle", "rate"])
+    says("order is 'angle', of type str; give a list of states", order="angle")
+    says("None stands where a symbol of the plant or its name is needed", order=[None])
+    says("units is ['m'], of type list; give a dictionary", units=["m"])
     says("ranges= names 'friction'", ranges={"friction": (0, 1)})
     says("is used twice", named=lambda a, r: {"rate": sin(a)})
     says("grows beyond all numbers", dt=1e6, changed={"angle": lambda a, r, u, w: a + r})
@@ -215,6 +231,12 @@ def test_a_discrete_plant_and_an_attitude_are_refused():
 
 def test_refusals_of_the_estimator():
     model = made()
+    with pytest.raises(ModelError, match="jump_model: the plant is None, of type NoneType; give a continuous Plant"):
+        jump_model(None, {}, 0.01)
+    with pytest.raises(ModelError, match="covariance_transition is 'Phi'; give a matrix of numbers"):
+        jump_matrix_estimator(model, covariance_transition="Phi", initial_variance=1.0)
+    with pytest.raises(ModelError, match="the gain is 'a'; give a matrix of numbers"):
+        model.closed_transition("a")
     with pytest.raises(ModelError, match="a is 'both'; take one of 'jacobian', 'identity', 'online'"):
         jump_matrix_estimator(model, "both", initial_variance=1.0)
     with pytest.raises(ModelError, match="covariance_transition has shape"):

@@ -107,3 +107,7 @@ def test_what_cannot_be_mixed_is_a_sentence():
     assert "give 1 or -1 for each of the 4 rotors" in says(QUAD, UNITS, spins=(1, 0, 1, -1))
     assert "which is no command" in says(QUAD, UNITS, ranges={"lift": (0, 1)})
     assert "no matrix of finite numbers" in says(QUAD * math.nan, UNITS)
+    assert "commands is ['lift'], of type list; give a dictionary" in says(QUAD[:1], ["lift"])
+    assert "spins is 'ab'; give 4 finite numbers" in says(QUAD, UNITS, spins="ab")
+    assert "the speeds are 0.0 to '100'; give them in rad/s" in says(QUAD, UNITS, fastest="100")
+    assert "ranges is 5, of type int; give a dictionary" in says(QUAD, UNITS, ranges=5)

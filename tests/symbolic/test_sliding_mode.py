@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from plantc.reference import sliding_mode as textbook
 from plantc.symbolic import cos, sin, sqrt
-from plantc.symbolic.sliding_mode import boundary_layer, fuzzy, sign, tanh
+from plantc.symbolic.sliding_mode import Switching, boundary_layer, fuzzy, sign, tanh
 
 from plantc import (
     FuzzyInput,
@@ -533,6 +533,11 @@ GIVEN = {"surface": 1.0, "gain": 1.0, "switching": sign()}
         (lambda: sliding_mode(plain(), {"x": "u"}, **GIVEN | {"switching": "sign"}), r"'x' is 'sign'; give sign\(\), boundary_layer"),
         (lambda: sliding_mode(plain(), {"x": "u"}, saturate={"u": (0, 9)}, **GIVEN), r"held within \(0, 9\); give .* inside its range -5 .. 5"),
         (lambda: sliding_mode(plain(), {"x": "u"}, saturate={"w": (0, 1)}, **GIVEN), r"saturate= names \['w'\]; it may name u"),
+        (lambda: sliding_mode(3, {"x": "u"}, **GIVEN), "the plant is 3, of type int; give the Plant that the law is of"),
+        (lambda: sliding_mode(plain(), {"x": "u"}, least=0.2, **GIVEN), "least is 0.2, of type float; give a dictionary"),
+        (lambda: sliding_mode(plain(), {"x": "u"}, wrapped="x", **GIVEN), "wrapped is 'x', of type str; give a list of outputs"),
+        (lambda: Switching("boundry", 0.1), "of the kind 'boundry'; give one of sign, boundary_layer, tanh, fuzzy"),
+        (lambda: Switching("fuzzy", 0.1), "the fuzzy system of the switching term is None; take fuzzy"),
         (lambda: sliding_mode(plain(), {"x": "u"}, saturate=(-1, 1), **GIVEN), r"saturate is \(-1, 1\); give True for the range"),
         (lambda: sliding_mode(plain(), {"x": "u"}, saturate=1, **GIVEN), "saturate is 1; give True for the range"),
         (lambda: sliding_mode(plain(), {"x": "u"}, saturate=None, **GIVEN), "saturate is None; give True for the range"),
