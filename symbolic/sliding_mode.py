@@ -114,7 +114,7 @@ def fuzzy(system: FuzzySystem, width: float) -> Switching:
     ------
     ModelError
         If the system has another number of inputs or outputs, does not reach to both sides of zero, or has somewhere a
-        sign that pushes away from the surface: |K_fuzzy| sgn(s) and the K_fuzzy of a rule table with the signs of s are the
+        sign that pushes away from the surface: ``|K_fuzzy| sgn(s)`` and the K_fuzzy of a rule table with the signs of s are the
         same, K_fuzzy sgn(s) of that table is not.
     """
     if not isinstance(system, FuzzySystem) or len(system.inputs) != 1 or len(system.outputs) != 1:
@@ -144,25 +144,25 @@ def fuzzy(system: FuzzySystem, width: float) -> Switching:
 def switching_gain(
     beta: float, disturbance: float, model_error: float, eta: float, *, equivalent: float = 0.0, printed: bool = False
 ) -> float:
-    """Return the least K for which the surface is reached: s s' <= -eta |s|, whatever the bounds allow.
+    """Return the least K for which the surface is reached: ``s s' <= -eta |s|``, whatever the bounds allow.
 
-    K = beta (eta + D + M) + (beta - 1) |tau|, tau = -f - lambda e' + x_d'' (Slotine and Li, 1991, eq. 7.26).
+    ``K = beta (eta + D + M) + (beta - 1) |tau|``, tau = -f - lambda e' + x_d'' (Slotine and Li, 1991, eq. 7.26).
 
     Parameters
     ----------
     beta : float
         sqrt(g_max / g_min), at least 1: the law's g is the geometric mean of the two, so that 1/beta <= g_law / g <= beta.
     disturbance : float
-        D, the largest |d|.
+        D, the largest ``|d|``.
     model_error : float
         M, the largest error of f, also by the estimate that it is evaluated at.
     eta : float
         How fast the surface is to be reached, positive.
     equivalent : float
-        The largest |tau|; needed where beta is above 1.
+        The largest ``|tau|``; needed where beta is above 1.
     printed : bool
-        Give the condition (22) as Ghanai et al. (AEEE 16(4), 2018) print it, (1 - 1/beta) |tau| instead of (beta - 1) |tau|. It
-        is not sufficient where beta is above 1: for g = g_law / beta, (beta - 1) |tau| is what tau leaves.
+        Give the condition (22) as Ghanai et al. (AEEE 16(4), 2018) print it, ``(1 - 1/beta) |tau|`` instead of
+        ``(beta - 1) |tau|``. It is not sufficient where beta is above 1: for g = g_law / beta, ``(beta - 1) |tau|`` is what tau leaves.
 
     Raises
     ------
@@ -178,10 +178,10 @@ def switching_gain(
 
 
 def reaching_time(s0: float, eta: float, *, mu: float = 0.0, beta: float = 1.0, layer: float = 0.0) -> float:
-    """Return a bound on the time until |s| <= layer, for a K that meets `switching_gain`.
+    """Return a bound on the time until ``|s| <= layer``, for a K that meets `switching_gain`.
 
-    d|s|/dt <= -eta - (mu/beta) |s|, hence t <= (beta/mu) ln((eta + mu |s0| / beta) / (eta + mu layer / beta)); without mu it is
-    (|s0| - layer) / eta.
+    ``d|s|/dt <= -eta - (mu/beta) |s|``, hence ``t <= (beta/mu) ln((eta + mu |s0| / beta) / (eta + mu layer / beta))``;
+    without mu it is ``(|s0| - layer) / eta``.
 
     Parameters
     ----------
@@ -292,7 +292,7 @@ def sliding_mode(
     Block
         Entry `step`, no memory. Inputs: the states and the other inputs of the plant that f and g need, and for each output
         `reference_<q>`, `reference_rate_<q>`, `reference_acceleration_<q>`. Outputs: the commands, and for each output
-        `surface_<q>` (s) and `switching_gain_<q>` (|K sigma(s)|). Run-time parameters: `lambda_<q>`, `mu_<q>`, `gain_<q>`,
+        `surface_<q>` (s) and `switching_gain_<q>` (``|K sigma(s)|``). Run-time parameters: `lambda_<q>`, `mu_<q>`, `gain_<q>`,
         `width_<q>`, and those of the plant.
 
     Raises
