@@ -162,7 +162,8 @@ def switching_gain(
         The largest ``|tau|``; needed where beta is above 1.
     printed : bool
         Give the condition (22) as Ghanai et al. (AEEE 16(4), 2018) print it, ``(1 - 1/beta) |tau|`` instead of
-        ``(beta - 1) |tau|``. It is not sufficient where beta is above 1: for g = g_law / beta, ``(beta - 1) |tau|`` is what tau leaves.
+        ``(beta - 1) |tau|``. It is not sufficient where beta is above 1: for g = g_law / beta,
+        ``(beta - 1) |tau|`` is what tau leaves.
 
     Raises
     ------
