@@ -6,20 +6,19 @@ vehicle is that of set B, of whose coefficients none is zero, so that nothing ag
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 
 import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
-from plantc.examples.fsmc_quadrotor import DT, SET_B, coefficients, sampled, vehicle
-from plantc.symbolic import Plant, cos, sin
+from plantc.examples.fsmc_quadrotor import SET_B, sampled, vehicle
+from plantc.reference import fsmc
+from plantc.symbolic import Plant
 from plantc.symbolic.discretisation import transition
 from plantc.symbolic.expressions import equation_text
 
 Array = NDArray[np.float64]
-Entries = dict[tuple[int, int], ca.SX]
 
 LOST = ((8, 3), (10, 3), (10, 5))
 """Entries that do not survive in the text of the paper at hand."""
@@ -60,37 +59,6 @@ class Comparison:
         return self.difference <= NEAR * self.size
 
 
-def printed(plant: Plant, values: Mapping[str, float] = SET_B) -> Entries:
-    """Return the printed entries by (row, column) from 1, as expressions of the plant's symbols.
-
-    The paper writes x_i for the states, C_i and S_i for their cosines and sines, and Om for the residual speed.
-    """
-    a, _ = coefficients(values)
-    m = values["mass"]
-    x = [ca.SX(0), *[plant.x[k] for k in range(12)]]
-    u1, Om = plant.u[0], plant.u[4]
-    C1, C3, C5, S1, S5 = cos(x[1]), cos(x[3]), cos(x[5]), sin(x[1]), sin(x[5])
-    return {
-        (2, 2): 2 * x[2] * a[2] * DT + 1,
-        (2, 4): DT * (x[6] * a[1] + a[3] * Om),
-        (2, 6): x[4] * a[1] * DT,
-        (4, 2): DT * (x[6] * a[4] + a[6] * Om),
-        (4, 4): 2 * x[4] * a[5] * DT + 1,
-        (4, 6): x[2] * a[4] * DT,
-        (6, 2): x[4] * a[7] * DT,
-        (6, 4): x[2] * a[7] * DT,
-        (6, 6): 2 * x[6] * a[8] * DT + 1,
-        (8, 1): DT * u1 * (C1 * C3 * C5 / m) / m,
-        (8, 5): DT * u1 * (C1 * C3 * C5 / m) / m,
-        (8, 8): a[9] * DT + 1,
-        (10, 1): -DT * u1 * C1 * C3 * S5 / m,
-        (10, 10): a[10] * DT + 1,
-        (12, 1): -DT * u1 * C3 * S1 / m,
-        (12, 3): -DT * u1 * C3 * S1 / m,
-        (12, 12): a[11] * DT + 1,
-    }
-
-
 TEXTS = {
     (2, 2): "2 x2 a2 dt + 1",
     (2, 4): "dt (x6 a1 + a3 Om)",
@@ -110,7 +78,7 @@ TEXTS = {
     (12, 3): "-dt u1 C3 S1 / m",
     (12, 12): "a11 dt + 1",
 }
-"""The printed entries as they stand in the paper."""
+"""The printed entries as they stand in the paper; `plantc.reference.fsmc.printed_entries` evaluates them."""
 
 
 @cache
@@ -130,18 +98,19 @@ def compare(points: int = 50, seed: int = 1) -> list[Comparison]:
         Of the points.
     """
     plant, F = _derived()
-    entries = printed(plant)
-    ours = ca.vertcat(*[F[row - 1, column - 1] for row, column in entries])
-    both = ca.Function("both", [plant.x, plant.u], [ca.vertcat(*entries.values()), ours])
+    ours = ca.vertcat(*[F[row - 1, column - 1] for row, column in TEXTS])
+    derived = ca.Function("derived", [plant.x, plant.u], [ours])
     rng = np.random.default_rng(seed)
-    theirs_at, ours_at = np.empty((points, len(entries))), np.empty((points, len(entries)))
+    theirs_at, ours_at = np.empty((points, len(TEXTS))), np.empty((points, len(TEXTS)))
     for k in range(points):
         X = np.tile([1.0, 2.0], 6) * rng.uniform(-1, 1, 12)
-        u = [rng.uniform(1, 8), *rng.uniform(-0.3, 0.3, 3), rng.uniform(-200, 200)]
-        theirs_at[k], ours_at[k] = (np.asarray(item, dtype=float).ravel() for item in both(X, u))
+        u = np.array([rng.uniform(1, 8), *rng.uniform(-0.3, 0.3, 3), rng.uniform(-200, 200)])
+        entries = fsmc.printed_entries(fsmc.SET_B, X, u[:4], u[4])
+        theirs_at[k] = [entries[place] for place in TEXTS]
+        ours_at[k] = np.asarray(derived(X, u), dtype=float).ravel()
     texts = equation_text(ours, plant.symbol_names())
     answer = []
-    for k, (row, column) in enumerate(entries):
+    for k, (row, column) in enumerate(TEXTS):
         difference = float(np.max(np.abs(theirs_at[:, k] - ours_at[:, k])))
         size = float(np.max(np.abs(ours_at[:, k])))
         answer.append(Comparison(row, column, TEXTS[row, column], texts[k], difference, size, points))

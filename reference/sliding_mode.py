@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -153,15 +152,3 @@ class SlidingMode:
     def _along(self, x: Array, u: Array, p: Array, row: int, way: Array) -> Array:
         moved = x + 1j * x.dtype.type(STEP) * way
         return np.asarray(np.imag(self.rates(moved, u, p)[0][row : row + 1]) / x.dtype.type(STEP))
-
-
-def gain_condition(beta: float, disturbance: float, model_error: float, eta: float, equivalent: float = 0.0) -> float:
-    """Return the least switching gain K for which s s' <= -eta |s|; see `plantc.symbolic.sliding_mode.switching_gain`."""
-    return float(beta * (eta + disturbance + model_error) + (beta - 1) * abs(equivalent))
-
-
-def surface_rate(
-    s: Any, K: float, mu: float, ratio: float, error: float, equivalent: float, sigma: Callable[[Any], Any] = np.sign
-) -> Any:
-    """Return s' where the plant's g is `ratio` times the law's, and f and d are off by `error` together."""
-    return error + (ratio - 1) * equivalent - ratio * (K * sigma(s) + mu * s)

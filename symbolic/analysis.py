@@ -22,6 +22,7 @@ from scipy.sparse.csgraph import connected_components
 
 from .discretisation import noise_gain, transition
 from .errors import ModelError, expect
+from .names import name_of
 from .origins import said_at
 from .plant import Plant, Sensor, Symbol, wrap
 from .signals import WIDE, Signal
@@ -118,7 +119,7 @@ class OperatingPoint(Mapping[str, Any]):
         return _named([symbol.signal for symbol in self.plant.parameters], self.p)
 
     def __getitem__(self, key: Any) -> Any:
-        return {**self.states, **self.inputs}[_name_of(key)]
+        return {**self.states, **self.inputs}[name_of(key)]
 
     def __iter__(self) -> Iterator[str]:
         return iter({**self.states, **self.inputs})
@@ -127,7 +128,7 @@ class OperatingPoint(Mapping[str, Any]):
         return len(self.plant.states) + len(self.plant.inputs)
 
     def __contains__(self, key: object) -> bool:
-        return isinstance(key, (str, Symbol)) and _name_of(key) in {**self.states, **self.inputs}
+        return isinstance(key, (str, Symbol)) and name_of(key) in {**self.states, **self.inputs}
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, OperatingPoint):
@@ -274,7 +275,7 @@ class _Trim:
         states = {state.signal.name for state in plant.states}
         inputs = {symbol.signal.name for symbol in plant.inputs}
         known = states | inputs | {symbol.signal.name for symbol in plant.parameters}
-        chosen = {_name_of(item) for item in free} if free is not None else (states | inputs) - set(held)
+        chosen = {name_of(item) for item in free} if free is not None else (states | inputs) - set(held)
         for what, names in (("hold=", held), ("free=", chosen), ("bounds=", ends), ("guess=", guesses)):
             unknown = sorted(set(names) - known)
             if unknown:
@@ -1060,12 +1061,8 @@ def _real_if_close(values: Array) -> Array:
 # -- values by name ---------------------------------------------------------------------------------------------------
 
 
-def _name_of(key: Any) -> str:
-    return key if isinstance(key, str) else str(key.signal.name)
-
-
 def _by_name(values: Values) -> dict[str, Any]:
-    return {_name_of(key): value for key, value in values.items()}
+    return {name_of(key): value for key, value in values.items()}
 
 
 def _everything(point: OperatingPoint) -> dict[str, Any]:

@@ -13,7 +13,7 @@ import numpy as np
 
 from .block import Block, Design, Scenario
 from .errors import ModelError, expect
-from .names import check_name
+from .names import check_name, name_of
 from .program import Assign, Call, Entry, Place, Refuse, Statement
 from .signals import Kind, Signal, Status, check_default, same_unit
 
@@ -69,9 +69,9 @@ def wires(
     >>> wires("estimator", "feedback", ["x", "vx"])
     {'feedback.x': 'estimator.x', 'feedback.vx': 'estimator.vx'}
     """
-    started = None if initial is None else {_called(key): value for key, value in initial.items()}
+    started = None if initial is None else {name_of(key): value for key, value in initial.items()}
     answer: dict[str, str | Delay] = {}
-    for name in map(_called, names):
+    for name in map(name_of, names):
         if started is not None and name not in started:
             raise ModelError(
                 f"the wires {source} -> {target}: initial= has no value for {name!r}; it has {', '.join(started) or 'none'}"
@@ -79,11 +79,6 @@ def wires(
         start = f"{source}.{name}"
         answer[f"{target}.{name}"] = start if started is None else delay(start, started[name])
     return answer
-
-
-def _called(item: Any) -> str:
-    """Return the name of a symbol, of a state of a plant, or of itself."""
-    return item if isinstance(item, str) else str(item.signal.name)
 
 
 def connect(

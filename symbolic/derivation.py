@@ -14,6 +14,7 @@ from ..reference import estimators as textbook
 from .block import Block
 from .errors import ModelError, expect
 from .expressions import equation_text, number_text, numpy_callable
+from .names import name_of
 from .origins import Origin
 from .plant import Noise, Plant, Sensor, State, Symbol
 from .program import AllOf, Assign, Compare, Element, Evaluate, Place, Refuse, Statement
@@ -328,14 +329,6 @@ class Derivation:
             full=sensor.full,
             extra_variance=numpy_callable(ca.Function("extra", [x, z, u, p], [ca.densify(plant.without_noise(extra))])),
         )
-
-
-def name_of(key: Symbol | str) -> str:
-    """Return the name of a symbol, or the name itself; refuse anything else."""
-    found = key if isinstance(key, str) else getattr(getattr(key, "signal", None), "name", None)
-    if not isinstance(found, str):
-        raise ModelError(f"{key!r} stands where a symbol of the plant or its name is needed; give one")
-    return found
 
 
 def dynamics_equations(plant: Plant) -> list[str]:

@@ -16,13 +16,13 @@ from scipy.sparse.csgraph import connected_components
 from ..reference import estimators as textbook
 from .affinity import kink_in
 from .block import Block, DerivativeCheck, Scenario
-from .derivation import Derivation, Reads, dynamics_equations, known_sources, name_of, plant_equations
+from .derivation import Derivation, Reads, dynamics_equations, known_sources, plant_equations
 from .discretisation import process_covariance, transition
 from .errors import ModelError, expect
 from .expressions import equation_text, tape
 from .forms import Conventional, Rows, form_named
 from .kernels import SMALLEST_VARIANCE, Decorrelate, Pattern, Pivots
-from .names import check_unique
+from .names import check_unique, name_of
 from .origins import Origin
 from .plant import HIGHEST_VARIANCE, LOWEST_VARIANCE, Noise, Plant, Sensor, State, Symbol, wrap
 from .program import (
@@ -138,6 +138,23 @@ def extended_kalman_filter(
 
 
 @dataclass(frozen=True)
+class Carried:
+    """An input of `predict` beside the plant's, which the memory keeps for the next one.
+
+    Attributes
+    ----------
+    now, before : Symbol
+        The input, and the field of the memory, of the same name.
+    state : State
+        Whose nominal value is the default of the parameter that starts it.
+    """
+
+    now: Symbol
+    before: Symbol
+    state: State
+
+
+@dataclass(frozen=True)
 class CovarianceStep:
     """What a filter propagates its covariance by in place of the derivatives of the dynamics: P = F P F' + G S G'.
 
@@ -145,16 +162,15 @@ class CovarianceStep:
     ----------
     F, G : casadi.SX (n, n), (n, noises)
         Expressions of the plant's states, inputs and parameters, and of `carried`; S is the strength of the process noises.
-    carried : tuple of (Symbol, Symbol)
-        Inputs of `predict` beside the plant's, each with the field of the memory, of the same name, that keeps it for the
-        next one. A parameter ``<name>_0`` starts it, by default the nominal value of the state of that name behind "true_".
+    carried : tuple of Carried
+        Inputs of `predict` beside the plant's; a parameter ``<name>_0`` starts each.
     reference : (callable, tuple of reference.CarriedModel)
         The same for the oracle, independently; see `reference.Model.error_step` and `carried`.
     """
 
     F: ca.SX
     G: ca.SX
-    carried: tuple[tuple[Symbol, Symbol], ...]
+    carried: tuple[Carried, ...]
     reference: tuple[Any, tuple[Any, ...]]
 
 
@@ -536,11 +552,11 @@ class _Builder(Derivation):
         variances = self._initial_variances()
         self.declare_states()
         x0, _ = self.nominal()
-        for now, before in self.carried:
-            block.memory_signals.append(before.signal)
-            of = next(s for s in plant.states if s.signal.name == now.signal.name.removeprefix("true_"))
-            start = replace(before.signal, name=f"{now.signal.name}_0", doc=f"initial {before.signal.doc}")
-            block.param_signals.append(replace(start, default=tuple(float(item) for item in x0[of.at])))
+        for item in self.carried:
+            kept = item.before.signal
+            block.memory_signals.append(kept)
+            start = replace(kept, name=f"{kept.name}_0", doc=f"initial {kept.doc}")
+            block.param_signals.append(replace(start, default=tuple(float(value) for value in x0[item.state.at])))
         for state in plant.states:
             size = state.error_at.stop - state.error_at.start
             unit = power_of_unit("rad" if state.attitude else state.signal.unit, 2)
@@ -655,8 +671,8 @@ class _Builder(Derivation):
                 for i in range(state.error_at.stop - state.error_at.start)
             ]
         )
-        for now, _ in self.carried:
-            name, size = now.signal.name, now.signal.size
+        for item in self.carried:
+            name, size = item.now.signal.name, item.now.signal.size
             body.append(Assign(Place("next", name), Place("param", f"{name}_0"), size))
         for sensor in plant.sensors:
             body.append(Assign(Place("next", f"rejected_{sensor.signal.name}"), 0.0, 1))
@@ -707,18 +723,18 @@ class _Builder(Derivation):
                 self._predict_origins(f_pattern, q_pattern),
             ),
             *self.form.propagate(f_place, f_pattern, q_place, q_pattern, f_names, q_names),
-            *[Assign(Place("next", s.signal.name), Place("in", s.signal.name), s.signal.size) for s, _ in self.carried],
+            *[Assign(Place("next", s.name), Place("in", s.name), s.size) for s in (c.now.signal for c in self.carried)],
             *self.form.hold(),
             self.judge(),
         ]
         doc = "Move the estimate one step ahead."
-        inputs = [*self.step_inputs(), *[now.signal for now, _ in self.carried]]
+        inputs = [*self.step_inputs(), *[item.now.signal for item in self.carried]]
         return Entry("predict", tuple(inputs), (), tuple(body), doc)
 
     def _carried_reads(self) -> list[Reads]:
         """Return what the covariance's own step takes beside the plant's: inputs, and what memory kept of the last ones."""
-        now = [symbol for symbol, _ in self.carried]
-        before = [symbol for _, symbol in self.carried]
+        now = [item.now for item in self.carried]
+        before = [item.before for item in self.carried]
         answer: list[Reads] = []
         for space, symbols in (("in", now), ("memory", before)):
             places = [((Place(space, s.signal.name), s.signal.size),) for s in symbols]  # type: ignore[arg-type]

@@ -22,11 +22,11 @@ from ..reference.model import CarriedModel
 from .affinity import kink_in
 from .block import Block
 from .components import matrix_of
-from .derivation import name_of
 from .errors import ModelError, expect
-from .estimators import CovarianceStep, filter_of
+from .estimators import Carried, CovarianceStep, filter_of
 from .exponentials import held_exponential
 from .expressions import equation_text, numpy_callable
+from .names import name_of
 from .origins import place_of_call
 from .plant import HIGHEST_VARIANCE, Noise, Plant, Sensor, State, Symbol
 from .signals import Signal
@@ -589,18 +589,18 @@ def _error_step(model: JumpModel, a: Choice, transition: Any) -> CovarianceStep:
     projection = plant.without_noise(model.projection)
     at = [model.DJ, model.noise_gain]
     DJ, inside = (ca.substitute(item, plant.x, projection) for item in at)
-    carried: list[tuple[Symbol, Symbol]] = []
+    carried: list[Carried] = []
     if a == "identity":
         matrix = ca.SX.eye(n)
     elif a == "jacobian":
         matrix = DJ
     else:
-        carried = [_true_value(state) for state in model._clamp_states()]
-        carried.sort(key=lambda pair: model.clamps.index(pair[0].signal.name.removeprefix("true_")))
+        clamps = sorted(model._clamp_states(), key=lambda state: model.clamps.index(state.signal.name))
+        carried = [_true_value(state) for state in clamps]
         matrix = _online(model, projection, carried)
     F = ca.sparsify(matrix @ _sparse(model.Phi if given is None else given))
     G = ca.sparsify(matrix @ _sparse(model.Psi) + inside)
-    return CovarianceStep(F, G, tuple(carried), _reference(model, a, given, [now.signal.name for now, _ in carried]))
+    return CovarianceStep(F, G, tuple(carried), _reference(model, a, given, carried))
 
 
 def _independent(model: JumpModel) -> JumpMap:
@@ -617,20 +617,20 @@ def _independent(model: JumpModel) -> JumpMap:
     return JumpMap(rates, jump, sizes, defaults, float(plant.dt))  # type: ignore[arg-type]
 
 
-def _true_value(state: State) -> tuple[Symbol, Symbol]:
+def _true_value(state: State) -> Carried:
     """Return the input that is the true value of a nonlinearity, and the field that keeps it for the next sample."""
     said = state.signal
     signal = Signal(f"true_{said.name}", said.size, said.unit, said.low, said.high, f"true {said.name} at the sample")
-    return Symbol(signal), Symbol(replace(signal, doc=f"true {said.name} at the last sample"))
+    return Carried(Symbol(signal), Symbol(replace(signal, doc=f"true {said.name} at the last sample")), state)
 
 
-def _online(model: JumpModel, projection: ca.SX, carried: Sequence[tuple[Symbol, Symbol]]) -> ca.SX:
+def _online(model: JumpModel, projection: ca.SX, carried: Sequence[Carried]) -> ca.SX:
     """Return diag(a_ii) (eq. 2.30); a difference of at most 1e-12 makes the element zero."""
     plant = model.plant
     jumped = ca.substitute(plant.without_noise(model.J), plant.x, projection)
     diagonal = ca.SX.ones(len(model.Phi))
-    now = ca.vertcat(ca.SX(0, 1), *[ca.SX(symbol) for symbol, _ in carried])
-    before = ca.vertcat(ca.SX(0, 1), *[ca.SX(symbol) for _, symbol in carried])
+    now = ca.vertcat(ca.SX(0, 1), *[ca.SX(item.now) for item in carried])
+    before = ca.vertcat(ca.SX(0, 1), *[ca.SX(item.before) for item in carried])
     for k, i in enumerate(model.clamped):
         difference = before[k] - projection[i]
         large = ca.fabs(difference) > SMALLEST_DIFFERENCE
@@ -639,16 +639,14 @@ def _online(model: JumpModel, projection: ca.SX, carried: Sequence[tuple[Symbol,
     return ca.diag(diagonal)
 
 
-def _reference(model: JumpModel, a: Choice, transition: Array | None, carried: Sequence[str]) -> Any:
+def _reference(model: JumpModel, a: Choice, transition: Array | None, carried: Sequence[Carried]) -> Any:
     """Return what propagates the covariance of the oracle, and what it reads beside the state."""
     plant = model.plant
-    step = ErrorStep(plant.independent, model.clamped, a, transition, tuple(carried))
-    states = {state.signal.name: state.signal for state in plant.states}
+    names = tuple(item.now.signal.name for item in carried)
     told = []
-    for name in carried:
-        signal = states[name.removeprefix("true_")]
+    for name, signal in zip(names, (item.state.signal for item in carried), strict=True):
         told.append(CarriedModel(name, signal.size, np.array(signal.low), np.array(signal.high), signal.name))
-    return step, tuple(told)
+    return ErrorStep(plant.independent, model.clamped, a, transition, names), tuple(told)
 
 
 def _sparse(matrix: Array) -> ca.SX:

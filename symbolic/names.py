@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from typing import Any
 
 from .errors import ModelError
 
@@ -168,3 +169,17 @@ def check_unique(names: Iterable[tuple[str, str]], owner: str) -> None:
                 f"{owner}: {what} and {seen[name]} would both be called {name!r} in the generated C; rename one of them"
             )
         seen[name] = what
+
+
+def name_of(key: Any) -> str:
+    """Return the name of a symbol, or of a state of a plant, or the name itself.
+
+    Raises
+    ------
+    ModelError
+        If it is something else.
+    """
+    found = key if isinstance(key, str) else getattr(getattr(key, "signal", None), "name", None)
+    if not isinstance(found, str):
+        raise ModelError(f"{key!r} stands where a symbol of the plant or its name is needed; give one")
+    return found
